@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ncsim_module(NAME SOURCES ... TESTS ... DEPS ... EXTERNAL ...): one static library and one test program a folder.
+#   DEPS      modules of this project (an arrow of docs/architecture.md each)
+#   EXTERNAL  packaged libraries; used privately, so that their headers stay behind the module
+add_library(ncsim_options INTERFACE)
+target_include_directories(ncsim_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(ncsim_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow -Werror -ffp-contract=off)
+target_link_libraries(ncsim_options INTERFACE Eigen3::Eigen)
+if(NCSIM_SANITIZE)
+  target_compile_options(ncsim_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all)
+  target_link_options(ncsim_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+include(GoogleTest)
+
+function(ncsim_test NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LABELS" ${ARGN})
+  add_executable(${NAME} ${ARG_SOURCES})
+  target_link_libraries(${NAME} PRIVATE ncsim_options ${ARG_DEPS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${NAME} PRIVATE NCSIM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900)
+endfunction()
+
+function(ncsim_module NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;TESTS;DEPS;EXTERNAL" ${ARGN})
+  add_library(ncsim_${NAME} STATIC ${ARG_SOURCES})
+  list(TRANSFORM ARG_DEPS PREPEND ncsim_)
+  target_link_libraries(ncsim_${NAME} PUBLIC ncsim_options ${ARG_DEPS} PRIVATE ${ARG_EXTERNAL})
+  if(ARG_TESTS)
+    ncsim_test(${NAME}_test SOURCES ${ARG_TESTS} DEPS ncsim_${NAME} LABELS unit)
+  endif()
+endfunction()

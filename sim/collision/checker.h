@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts and clearances over whole motions. FCL stays behind this header. Knows no NC text and no control.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/base/finding.h"
+#include "sim/machine/job.h"
+#include "sim/machine/machine.h"
+#include "sim/machine/scene.h"
+#include "sim/machine/tool.h"
+#include "sim/motion/motion.h"
+
+namespace ncsim::collision {
+
+/// The least clearance of a pair over the program: never less than `proven_mm` anywhere, `seen_mm` at `where`.
+struct PairClearance {
+  std::vector<std::string> bodies;  ///< Tool side first: {"T3.holder", "vise_jaw"}.
+  double proven_mm = 0.0;
+  double seen_mm = 0.0;
+  SourcePosition where;
+};
+
+/// The deepest that each tool's flutes went into the part in feeds (mm, >= 0).
+struct DeepestCut {
+  int tool = 0;
+  double depth_mm = 0.0;
+  SourcePosition where;
+};
+
+struct CollisionResult {
+  std::vector<Finding> findings;  ///< In program order; one for a run of blocks in contact.
+  std::vector<PairClearance> clearances;
+  std::vector<DeepestCut> cuts;
+};
+
+/// Checks every pair of bodies that can move against each other, over the whole of every motion: an interval is proven
+/// clear when the clearance at one of its poses exceeds motion::RelativeBound, else it is split; a hit is a pose.
+class CollisionChecker {
+ public:
+  CollisionChecker(const machine::Machine& machine, const machine::Scene& scene,
+                   const machine::ToolTable& tools, const machine::CheckSettings& settings);
+  ~CollisionChecker();
+
+  /// Windows in program order.
+  void Check(const motion::Window& window);
+  CollisionResult Finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ncsim::collision

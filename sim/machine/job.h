@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A job: what stands on the machine and in the control's registers before the program starts.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/machine/machine.h"
+#include "sim/machine/tool.h"
+
+namespace ncsim::machine {
+
+/// A pose as the job states it: on a link, on another fixture, or on a work offset ("G54": machine directions at the
+/// offset's B, C, riding on the table).
+struct Placement {
+  std::string on;
+  Eigen::Isometry3d X_OG = Eigen::Isometry3d::Identity();  ///< mm.
+  int line = 0, column = 0;
+};
+
+/// A work offset: either machine axis values as entered at the control (mm, rad; what is not named is 0), or a frame
+/// on a link from which those values are worked out.
+struct WorkOffset {
+  std::string name;  ///< "G54", "G154 P1" ...
+  std::map<char, double> values;
+  std::optional<Placement> placement;
+};
+
+enum class BodyKind { kMachine, kFixture, kPart, kStock, kFlutes, kShank, kHolder };
+
+/// A fixture, part or blank. A primitive has been made a mesh (cylinders circumscribed, sagitta under 0.005 mm).
+struct PlacedBody {
+  std::string name;
+  BodyKind kind = BodyKind::kFixture;
+  Placement at;
+  TriangleMesh mesh;
+  std::string defect;  ///< As LinkBody::defect.
+};
+
+enum class GougeMode { kError, kWarning, kOff };
+
+struct CheckSettings {
+  double clearance = 0.0;  ///< mm; below it, near-miss. 0: no near misses.
+  double part_tolerance = 0.1;
+  double gouge_tolerance = 0.25;
+  GougeMode gouge = GougeMode::kError;
+};
+
+struct Job {
+  std::string path;                     ///< "" for no job file.
+  std::string model;                    ///< As written; "" if not stated.
+  std::map<char, double> start;         ///< Axis letter -> machine value (mm, rad).
+  std::map<std::string, WorkOffset> offsets;
+  std::vector<Tool> tools;
+  bool has_tools = false;               ///< The job states tools: one that it does not list is `tool-missing`.
+  std::vector<PlacedBody> bodies;       ///< Fixtures, part, stock, in the order of the file.
+  CheckSettings check;
+  std::map<std::string, std::string> control;  ///< "setting 9" -> "inch"; lower-case names, values as text.
+};
+
+}  // namespace ncsim::machine
