@@ -14,14 +14,12 @@ std::string ToString(const Diagnostic& diagnostic) {
 }
 
 void Diagnostics::Error(std::string file, int line, int column, std::string message) {
-  all_.push_back(
-      {Diagnostic::Level::kError, std::move(file), line, column, std::move(message)});
+  all_.push_back({Diagnostic::Level::kError, std::move(file), line, column, std::move(message)});
   ++errors_;
 }
 
 void Diagnostics::Warning(std::string file, int line, int column, std::string message) {
-  all_.push_back(
-      {Diagnostic::Level::kWarning, std::move(file), line, column, std::move(message)});
+  all_.push_back({Diagnostic::Level::kWarning, std::move(file), line, column, std::move(message)});
 }
 
 }  // namespace ncsim

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trouble with an input that is not the program: a model, a mesh, a job. Readers report here, recover, and go on,
-// so that a user sees everything that is wrong in one run. Nothing here throws, prints or exits.
+// Trouble with an input that is not the program: a model, a mesh, a job. Readers report here,
+// recover, and go on, so that a user sees everything that is wrong in one run. Nothing here throws,
+// prints or exits.
 #pragma once
 
 #include <string>

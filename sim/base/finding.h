@@ -51,10 +51,11 @@ struct Finding {
   Rule rule = Rule::kSyntax;
   Severity severity = Severity::kError;
   SourcePosition where;
-  std::string message;                           ///< Lower case, no full stop, value and limit with units.
-  std::vector<std::string> bodies;               ///< The pair, for contacts and near misses.
-  std::optional<double> clearance_mm;            ///< Minus the depth for a contact.
-  std::vector<std::pair<char, double>> axes;     ///< Axis letter and NC value (mm, deg) at the first contact.
+  std::string message;                 ///< Lower case, no full stop, value and limit with units.
+  std::vector<std::string> bodies;     ///< The pair, for contacts and near misses.
+  std::optional<double> clearance_mm;  ///< Minus the depth for a contact.
+  std::vector<std::pair<char, double>>
+      axes;  ///< Axis letter and NC value (mm, deg) at the first contact.
   std::optional<double> time_s;
 };
 
@@ -63,9 +64,10 @@ Finding MakeFinding(Rule rule, SourcePosition where, std::string message);
 
 /// Something that neither the command line nor the job says, and that the run therefore assumed.
 struct Assumption {
-  std::string name;           ///< "offset G54", "tool T3", "setting 335": what --assume takes.
-  std::string text;           ///< What was assumed, in words.
-  bool places_metal = false;  ///< True: the best verdict is `unproven` until accepted. False: only under --strict.
+  std::string name;  ///< "offset G54", "tool T3", "setting 335": what --assume takes.
+  std::string text;  ///< What was assumed, in words.
+  bool places_metal =
+      false;  ///< True: the best verdict is `unproven` until accepted. False: only under --strict.
   bool accepted = false;
 };
 
@@ -73,6 +75,7 @@ enum class Verdict { kPass, kFail, kUnproven };
 std::string_view ToString(Verdict verdict);
 
 /// Any error makes `fail`; else any unproven (finding or assumption) makes `unproven`; else `pass`.
-Verdict Judge(const std::vector<Finding>& findings, const std::vector<Assumption>& assumptions, bool strict);
+Verdict Judge(const std::vector<Finding>& findings, const std::vector<Assumption>& assumptions,
+              bool strict);
 
 }  // namespace ncsim

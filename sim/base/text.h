@@ -14,7 +14,8 @@ std::string Fixed(double value, int decimals);
 /// Fixed notation without trailing zeros: 50.8, 120, 0.05.
 std::string Short(double value, int max_decimals = 4);
 
-/// The candidate within edit distance max(2, length / 3) of `word`, or "" where none is near.
+/// The candidate within edit distance max(2, length / 3) of `word`, and below its length; "" where
+/// none is near.
 std::string Nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// " (did you mean 'x'?)", or "".

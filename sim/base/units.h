@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inside ncsim: mm, rad, s. These factors are used at a boundary only (URDF metres, NC degrees and inches).
+// Inside ncsim: mm, rad, s. These factors are used at a boundary only (URDF metres, NC degrees and
+// inches).
 #pragma once
 
 #include <numbers>

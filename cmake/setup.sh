@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Sourced by scenes/run, tests/run and .ci/run: installs what a bare Debian 12 lacks, then offers `build PRESET`.
+set -eu
+
+NCSIM_PACKAGES="g++ cmake ninja-build libeigen3-dev libfcl-dev libassimp-dev liburdfdom-dev
+  libtinyxml2-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev zlib1g-dev
+  libgtest-dev libgmock-dev libbenchmark-dev"
+
+install_packages() {
+  missing=""
+  for package in "$@"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
+      missing="$missing $package"
+  done
+  [ -z "$missing" ] && return 0
+  if [ "$(id -u)" -eq 0 ]; then as_root=""; else as_root="sudo"; fi
+  echo "installing:$missing" >&2
+  export DEBIAN_FRONTEND=noninteractive
+  # A list that is out of date names files that are gone: update first, once.
+  $as_root apt-get update -qq >&2
+  # shellcheck disable=SC2086
+  $as_root apt-get install -y -qq --no-install-recommends $missing >&2
+}
+
+# build PRESET [TARGET...]: configures and builds with a preset of CMakePresets.json, quietly unless it fails.
+build() {
+  preset=$1
+  shift
+  cmake --preset "$preset" >/tmp/ncsim-configure.$$ 2>&1 || { cat /tmp/ncsim-configure.$$ >&2; return 1; }
+  rm -f /tmp/ncsim-configure.$$
+  if [ $# -gt 0 ]; then
+    cmake --build --preset "$preset" --target "$@"
+  else
+    cmake --build --preset "$preset"
+  fi
+}
