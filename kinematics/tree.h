@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A machine as a tree of rigid links and joints. Knows Eigen and nothing else: no file formats, no axis letters.
-// Units: mm and rad. Frames: X_AB is the pose of frame B in A; p_AB_C a position from A to B, expressed in C.
+// A machine as a tree of rigid links and joints. Knows Eigen and nothing else: no file formats, no
+// axis letters. Units: mm and rad. Frames: X_AB is the pose of frame B in A; p_AB_C a position from
+// A to B, expressed in C.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +14,8 @@ namespace ncsim::kinematics {
 
 inline constexpr int kMaxJoints = 12;
 
-/// Positions of the moving joints in the order of KinematicTree::moving_joints(): mm or rad. No heap.
+/// Positions of the moving joints in the order of KinematicTree::moving_joints(): mm or rad. No
+/// heap.
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1>;
 
 enum class JointType { kFixed, kPrismatic, kRevolute };
@@ -23,11 +25,12 @@ struct Joint {
   JointType type = JointType::kFixed;
   int parent_link = -1;
   int child_link = -1;
-  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();  ///< Joint frame in the parent link, at position 0.
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();         ///< Unit; in the joint frame.
-  double lower = 0.0;  ///< -inf for a continuous joint.
-  double upper = 0.0;  ///< +inf for a continuous joint.
-  int index = -1;      ///< Place in JointVector; -1 for a fixed joint.
+  Eigen::Isometry3d X_PJ =
+      Eigen::Isometry3d::Identity();  ///< Joint frame in the parent link, at position 0.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< Unit; in the joint frame.
+  double lower = 0.0;                               ///< -inf for a continuous joint.
+  double upper = 0.0;                               ///< +inf for a continuous joint.
+  int index = -1;                                   ///< Place in JointVector; -1 for a fixed joint.
 };
 
 struct Link {
@@ -35,12 +38,14 @@ struct Link {
   int parent_joint = -1;  ///< -1 for the root.
 };
 
-/// Immutable after construction. Links stand in topological order: a parent before its children; link 0 is the root.
+/// Immutable after construction. Links stand in topological order: a parent before its children;
+/// link 0 is the root.
 class KinematicTree {
  public:
   KinematicTree() = default;
-  /// Takes links and joints that form one tree with unit axes and at most kMaxJoints moving joints (the loader has
-  /// checked that); sorts links, assigns Joint::index in order of appearance. Breaking this is a programming error.
+  /// Takes links and joints that form one tree with unit axes and at most kMaxJoints moving joints
+  /// (the loader has checked that); sorts links, assigns Joint::index in order of appearance.
+  /// Breaking this is a programming error.
   KinematicTree(std::vector<Link> links, std::vector<Joint> joints);
 
   const std::vector<Link>& links() const { return links_; }
