@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Codes as data: one row a code of the control's manual. Drives interpretation, documentation and findings.
+// Codes as data: one row a code of the control's manual. Drives interpretation, documentation and
+// findings.
 #pragma once
 
 #include <span>
@@ -16,14 +17,16 @@ enum class Support {
 };
 
 struct CodeSpec {
-  char address;              ///< 'G' or 'M'.
-  int number_x10;            ///< G43.4 = 434, G01 = 10.
-  int group;                 ///< Modal group; 0 = non-modal. For M codes 0.
-  bool is_default;           ///< Power-up state of its group.
+  char address;     ///< 'G' or 'M'.
+  int number_x10;   ///< G43.4 = 434, G01 = 10.
+  int group;        ///< Modal group; 0 = non-modal. For M codes 0.
+  bool is_default;  ///< Power-up state of its group.
   Support support;
-  std::string_view words;    ///< Addresses that the code itself may take in its block, besides axes: "PL", "XYRIJK".
+  std::string_view words;  ///< Addresses that the code itself may take in its block, besides axes:
+                           ///< "PL", "XYRIJK".
   std::string_view meaning;  ///< The manual's words, short.
-  std::string_view note;     ///< What the simulator does with it, for docs/dialects; "" for kSimulated as stated.
+  std::string_view
+      note;  ///< What the simulator does with it, for docs/dialects; "" for kSimulated as stated.
 };
 
 /// A control's language.

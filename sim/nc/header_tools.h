@@ -19,8 +19,8 @@ struct HeaderTool {
   int line = 0;
 };
 
-/// NX's TOOL TABLE SUMMARY and the `(T1 D=0.5 CR=0.25 - ZMIN=... - BALL END MILL)` lines of Autodesk's posts. Reads comments
-/// up to the first block that moves an axis.
+/// NX's TOOL TABLE SUMMARY and the `(T1 D=0.5 CR=0.25 - ZMIN=... - BALL END MILL)` lines of
+/// Autodesk's posts. Reads comments up to the first block that moves an axis.
 std::vector<HeaderTool> ReadHeaderTools(const Program& program);
 
 }  // namespace ncsim::nc
