@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands: a block's effect in PROGRAM coordinates (absolute; mm, rad), with every modal fact it needs. Later stages never
-// read modal state, so a command may wait in the contour stage.
+// Commands: a block's effect in PROGRAM coordinates (absolute; mm, rad), with every modal fact it
+// needs. Later stages never read modal state, so a command may wait in the contour stage.
 //
 //   block -> Command -> contour stage (contour.h) -> frames and TCP (to_motion.h) -> motion::Motion
 #pragma once
@@ -22,12 +22,17 @@ using AxisValues = std::array<double, kNumAxes>;
 /// The plane of arcs, cycles and compensation: first, second and normal axis.
 enum class Plane : std::uint8_t { kXY, kZX, kYZ };  // G17, G18, G19
 
-/// What turns program coordinates into machine ones. Immutable; commands share it until a modal change.
+/// What turns program coordinates into machine ones. Immutable; commands share it until a modal
+/// change.
 struct Frame {
-  AxisValues offset{};        ///< Active work offset + G52 + G92 shift: machine values.
-  int offset_index = 0;       ///< Index into the run's OffsetTable (motion::Facts::offset).
-  double tool_length = 0.0;   ///< Signed: G43 +H, G44 -H, 0 after G49.
-  enum class Rotation : std::uint8_t { kNone, kDwo, kTcp } rotation = Rotation::kNone;  ///< G255 / G254 / G234.
+  AxisValues offset{};       ///< Active work offset + G52 + G92 shift: machine values.
+  int offset_index = 0;      ///< Index into the run's OffsetTable (motion::Facts::offset).
+  double tool_length = 0.0;  ///< Signed: G43 +H, G44 -H, 0 after G49.
+  enum class Rotation : std::uint8_t {
+    kNone,
+    kDwo,
+    kTcp
+  } rotation = Rotation::kNone;  ///< G255 / G254 / G234.
   // G68: rotation of program coordinates in the plane, about a centre in program coordinates.
   bool g68 = false;
   Plane g68_plane = Plane::kXY;
@@ -35,36 +40,49 @@ struct Frame {
   double g68_centre[2] = {0.0, 0.0};
 };
 
-enum class CommandKind : std::uint8_t { kRapid, kFeed, kArc, kDwell, kMachineRapid, kMachineFeed, kToolChange };
+enum class CommandKind : std::uint8_t {
+  kRapid,
+  kFeed,
+  kArc,
+  kDwell,
+  kMachineRapid,
+  kMachineFeed,
+  kToolChange
+};
 
 struct Command {
   CommandKind kind = CommandKind::kFeed;
   SourcePosition where;
   std::shared_ptr<const Frame> frame;
-  /// Program coordinates at the end, all axes (those not named keep theirs). kMachine*: machine values (G53, G28, M06).
+  /// Program coordinates at the end, all axes (those not named keep theirs). kMachine*: machine
+  /// values (G53, G28, M06).
   AxisValues end{};
-  std::uint8_t named = 0;       ///< Bit per AxisIndex: named in the block.
+  std::uint8_t named = 0;  ///< Bit per AxisIndex: named in the block.
   // Arc (program coordinates).
   Plane plane = Plane::kXY;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   bool clockwise = false;
   bool full_circle = false;
   // Feed: exactly one of the modes.
-  enum class FeedMode : std::uint8_t { kPerMinute, kInverseTime, kPerRevolution } feed_mode =
-      FeedMode::kPerMinute;
-  double feed = 0.0;            ///< mm/s; for inverse time 1/s; for per revolution already times the spindle speed: mm/s.
-  double dwell = 0.0;           ///< s.
+  enum class FeedMode : std::uint8_t {
+    kPerMinute,
+    kInverseTime,
+    kPerRevolution
+  } feed_mode = FeedMode::kPerMinute;
+  double feed = 0.0;   ///< mm/s; for inverse time 1/s; for per revolution already times the spindle
+                       ///< speed: mm/s.
+  double dwell = 0.0;  ///< s.
   bool spindle_on = false;
   bool exact_stop = false;
-  bool brake_b = false, brake_c = false;  ///< Brakes commanded on.
-  int tool = 0;                 ///< T number in the spindle while this command runs.
-  int cycle = 0;                ///< motion::Facts::cycle.
-  double corner_rounding = 0.0; ///< mm.
+  std::uint8_t brakes = 0;       ///< Bit per AxisIndex: rotary brake commanded on.
+  int tool = 0;                  ///< T number in the spindle while this command runs.
+  int cycle = 0;                 ///< motion::Facts::cycle.
+  double corner_rounding = 0.0;  ///< mm.
   // What the contour stage acts on.
   enum class Comp : std::uint8_t { kOff, kLeft, kRight } comp = Comp::kOff;  ///< G40 / G41 / G42.
-  double comp_radius = 0.0;     ///< mm, signed.
-  double corner_radius = 0.0;   ///< ,R
-  double corner_chamfer = 0.0;  ///< ,C
+  double comp_radius = 0.0;                                                  ///< mm, signed.
+  double corner_radius = 0.0;                                                ///< ,R
+  double corner_chamfer = 0.0;                                               ///< ,C
 };
 
 }  // namespace ncsim::control

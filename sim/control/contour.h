@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contour stage: what must wait for the next moves. Corner rounding and chamfers (,R ,C) and cutter compensation
-// (G40-G42, Haas manual 96-8210: type A and B entry, settings 43, 44, 58). Commands in, commands out, in program coordinates.
+// The contour stage: what must wait for the next moves. Corner rounding and chamfers (,R ,C;
+// corner.h) and cutter compensation (G40-G42; cutter_comp.h). Commands in, commands out, in program
+// coordinates.
 #pragma once
 
 #include <functional>
 #include <memory>
 
+#include "sim/base/finding.h"
 #include "sim/control/command.h"
 
 namespace ncsim::control {
 
 struct ContourOptions {
-  bool type_b = false;       ///< Setting 43.
-  bool fanuc_corners = true; ///< Setting 58: FANUC (true) or YASNAC.
+  bool type_b = false;        ///< Setting 43.
+  bool fanuc_corners = true;  ///< Setting 58: FANUC (true) or YASNAC.
+  double least_arc_feed =
+      1.0;  ///< Setting 44 / 100: how far the feed falls in a compensated inside arc.
 };
 
 class Contour {
@@ -22,12 +26,20 @@ class Contour {
   Contour(ContourOptions options, Out out, Report report);
   ~Contour();
 
-  /// `start` is the program position before the first command; later ones are chained.
+  /// `start` is the program position before the first command; later ones are chained, except after
+  /// a command in machine coordinates (kMachineRapid, kMachineFeed, kToolChange), which
+  /// SetPosition() must follow.
   void SetPosition(const AxisValues& start);
   /// Passes `command` on at once when nothing waits and no compensation is active.
   void Push(const Command& command);
-  /// Sends on all that waits (program end, macro read of a position, tool change, frame change).
+  /// Sends on all that waits (macro read of a position, tool change, frame change). A compensated
+  /// path cannot be joined over it: `unsupported-code` where that matters.
   void Flush();
+  /// M00, M01, M02 or M30 at `where`: Flush, and a control-alarm if compensation is active.
+  void Stop(const SourcePosition& where);
+  /// Where the tool is, in program coordinates, after what has been sent on: beside the programmed
+  /// position while compensation is active.
+  AxisValues position() const;
 
  private:
   struct State;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/control/contour.h"
+
+#include <utility>
+
+#include "sim/control/corner.h"
+#include "sim/control/cutter_comp.h"
+
+namespace ncsim::control {
+
+struct Contour::State {
+  State(ContourOptions options, Out sink, const Report& report)
+      : out(std::move(sink)),
+        comp(
+            options, [this](const Command& c) { out(c); }, report),
+        corners([this](const Command& c) { comp.Push(c); }, report) {}
+
+  Out out;
+  CutterComp comp;
+  CornerStage corners;
+};
+
+Contour::Contour(ContourOptions options, Out out, Report report)
+    : state_(std::make_unique<State>(options, std::move(out), report)) {}
+
+Contour::~Contour() = default;
+
+void Contour::SetPosition(const AxisValues& start) {
+  state_->corners.SetPosition(start);
+  state_->comp.SetPosition(start);
+}
+
+void Contour::Push(const Command& command) { state_->corners.Push(command); }
+
+void Contour::Flush() {
+  state_->corners.Flush();
+  state_->comp.Flush();
+}
+
+void Contour::Stop(const SourcePosition& where) {
+  Flush();
+  state_->comp.Stop(where);
+}
+
+AxisValues Contour::position() const { return state_->comp.position(); }
+
+}  // namespace ncsim::control

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the control finds the subprograms that a program calls (Haas NGC Mill Operator's Manual
+// 2017, "M98 Subprogram Call", "Setting Up Search Locations").
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/base/finding.h"
+#include "sim/nc/program.h"
+#include "sim/nc/program_index.h"
+
+namespace ncsim::control {
+
+/// A loaded text.
+struct ProgramText {
+  std::shared_ptr<const nc::Program> program;
+  int file = 0;  ///< Index into SourceFiles.
+
+  /// Built at the first use.
+  const nc::ProgramIndex& index();
+
+ private:
+  std::unique_ptr<nc::ProgramIndex> index_;
+};
+
+struct Subprogram {
+  ProgramText* text = nullptr;  ///< Null: not found.
+  nc::TextPosition begin;
+};
+
+class Subprograms {
+ public:
+  /// `folders` are searched after the main program's own.
+  Subprograms(std::shared_ptr<const nc::Program> main, const std::vector<std::string>& folders,
+              SourceFiles* files);
+
+  ProgramText& main() { return *texts_.front(); }
+  /// O program `number`: in the calling text, in the main program's, then as a file of its own
+  /// (O01234.nc, O1234.nc, 01234.nc, ... in the search folders).
+  Subprogram Find(long number, ProgramText& caller);
+  /// `M98 (USB0/O00001.nc)`: the path under a search folder, with or without its leading folders,
+  /// which are the control's own devices.
+  Subprogram FindPath(std::string_view path);
+  /// "part's folder, 'subs'": for messages.
+  std::string Places() const;
+  /// Why the last Find found nothing, if it is not just absence; else "".
+  const std::string& error() const { return error_; }
+
+ private:
+  ProgramText* Load(const std::string& path);
+  Subprogram FindFile(const std::vector<std::string>& names);
+
+  std::vector<std::unique_ptr<ProgramText>> texts_;  ///< The main program's first.
+  std::map<std::string, ProgramText*> by_path_;      ///< Null: tried, and not readable.
+  std::map<long, Subprogram> by_number_;             ///< Files only.
+  std::map<std::string, Subprogram, std::less<>> by_name_;
+  std::vector<std::string> folders_;  ///< "" or with a '/' at the end.
+  SourceFiles* files_;
+  std::string error_;
+};
+
+}  // namespace ncsim::control
