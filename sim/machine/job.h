@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/machine/machine.h"
@@ -12,16 +13,16 @@
 
 namespace ncsim::machine {
 
-/// A pose as the job states it: on a link, on another fixture, or on a work offset ("G54": machine directions at the
-/// offset's B, C, riding on the table).
+/// A pose as the job states it: on a link, on another fixture, or on a work offset ("G54": machine
+/// directions at the offset's B, C, riding on the table).
 struct Placement {
   std::string on;
   Eigen::Isometry3d X_OG = Eigen::Isometry3d::Identity();  ///< mm.
   int line = 0, column = 0;
 };
 
-/// A work offset: either machine axis values as entered at the control (mm, rad; what is not named is 0), or a frame
-/// on a link from which those values are worked out.
+/// A work offset: either machine axis values as entered at the control (mm, rad; what is not named
+/// is 0), or a frame on a link from which those values are worked out.
 struct WorkOffset {
   std::string name;  ///< "G54", "G154 P1" ...
   std::map<char, double> values;
@@ -30,7 +31,8 @@ struct WorkOffset {
 
 enum class BodyKind { kMachine, kFixture, kPart, kStock, kFlutes, kShank, kHolder };
 
-/// A fixture, part or blank. A primitive has been made a mesh (cylinders circumscribed, sagitta under 0.005 mm).
+/// A fixture, part or blank. A primitive has been made a mesh (cylinders circumscribed, sagitta
+/// under 0.005 mm).
 struct PlacedBody {
   std::string name;
   BodyKind kind = BodyKind::kFixture;
@@ -49,15 +51,24 @@ struct CheckSettings {
 };
 
 struct Job {
-  std::string path;                     ///< "" for no job file.
-  std::string model;                    ///< As written; "" if not stated.
-  std::map<char, double> start;         ///< Axis letter -> machine value (mm, rad).
+  std::string path;              ///< "" for no job file.
+  std::string model;             ///< As written; "" if not stated.
+  std::map<char, double> start;  ///< Axis letter -> machine value (mm, rad).
+  int start_tool = 0;            ///< T number in the spindle at the start; 0 = none.
   std::map<std::string, WorkOffset> offsets;
   std::vector<Tool> tools;
-  bool has_tools = false;               ///< The job states tools: one that it does not list is `tool-missing`.
-  std::vector<PlacedBody> bodies;       ///< Fixtures, part, stock, in the order of the file.
+  bool has_tools = false;  ///< The job states tools: one that it does not list is `tool-missing`.
+  std::vector<PlacedBody> bodies;  ///< Fixtures, part, stock, in the order of the file.
   CheckSettings check;
-  std::map<std::string, std::string> control;  ///< "setting 9" -> "inch"; lower-case names, values as text.
+  /// "setting 9" -> "inch"; lower-case names, values as settings.h normalises them (lengths as mm,
+  /// angles as degrees).
+  std::map<std::string, std::string> control;
+  std::vector<std::string> subprogram_folders;  ///< As paths from the current folder.
+  std::vector<int> m_codes_without_motion;
+
+  /// The work offset of this name, under either of its names (G110 is G154 P1); nullptr if the job
+  /// has none.
+  const WorkOffset* FindOffset(std::string_view name) const;
 };
 
 }  // namespace ncsim::machine

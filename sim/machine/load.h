@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Readers of models/ and jobs. urdfdom, tinyxml2, assimp and toml++ stay behind them. Trouble goes to Diagnostics with
-// file and line; a reader returns nullopt only when nothing useful is left.
+// Readers of models/ and jobs. urdfdom, tinyxml2, assimp and toml++ stay behind them. Trouble goes
+// to Diagnostics with file and line; a reader returns nullopt only when nothing useful is left.
 #pragma once
 
 #include <optional>
@@ -12,20 +12,22 @@
 
 namespace ncsim::machine {
 
-/// Path of the model named on the command line: a path, or else a name looked up in $NCSIM_MODELS, beside the installed
-/// program (`program_dir`/../share/ncsim/models) and in the source tree (NCSIM_SOURCE_MODELS, compiled in): as
-/// NAME, NAME.urdf or */NAME.urdf. Empty if there is none.
+/// Path of the model named on the command line: a path, or else a name looked up in $NCSIM_MODELS,
+/// beside the installed program (`program_dir`/../share/ncsim/models) and in the source tree
+/// (NCSIM_SOURCE_MODELS, compiled in): as NAME, NAME.urdf or */NAME.urdf. Empty if there is none.
 std::string FindModel(const std::string& name, const std::string& program_dir);
 
-/// Loads NAME.urdf with the NAME.srdf and NAME.toml beside it (each optional; its absence is a warning).
+/// Loads NAME.urdf with the NAME.srdf and NAME.toml beside it (each optional; its absence is a
+/// warning).
 std::optional<Machine> LoadMachine(const std::string& urdf_path, Diagnostics* diagnostics);
 
 /// Loads a job file; an empty path gives the default job.
 std::optional<Job> LoadJob(const std::string& path, Diagnostics* diagnostics);
 
-/// Reads a mesh file, scaled to mm; `defect` says why it cannot be trusted ("" if it can). STL files are trimmed to their
-/// 84 + 50 n bytes before assimp sees them.
-TriangleMesh LoadMesh(const std::string& path, const Eigen::Vector3d& scale_to_mm, std::string* defect);
+/// Reads a mesh file, scaled to mm; `defect` says why it cannot be trusted ("" if it can). STL
+/// files are trimmed to their 84 + 50 n bytes before assimp sees them.
+TriangleMesh LoadMesh(const std::string& path, const Eigen::Vector3d& scale_to_mm,
+                      std::string* defect);
 
 /// The machine in words, and what its lint found: `ncsim inspect`.
 std::string Inspect(const Machine& machine, const Diagnostics& diagnostics);

@@ -11,7 +11,9 @@ namespace ncsim::machine {
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;
-  bool watertight = false;  ///< Every edge is shared by exactly two triangles of opposite sense.
+  /// Every edge is shared by two triangles of opposite sense (or by two such pairs, where solids
+  /// touch in an edge).
+  bool watertight = false;
 };
 
 }  // namespace ncsim::machine

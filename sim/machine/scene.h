@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything solid that is there before the first tool: links' shapes, fixtures, part, blank, each in its link's frame.
+// Everything solid that is there before the first tool: links' shapes, fixtures, part, blank, each
+// in its link's frame.
 #pragma once
 
 #include <map>
@@ -24,14 +25,16 @@ struct Scene {
   std::vector<SceneBody> bodies;
 };
 
-/// Machine values of a work offset of the job (mm, rad; all of X Y Z A B C present), worked out from its placement where
-/// it has one: the axis values that put the gauge line on the frame's origin at its B, C. nullopt: the job has none of
-/// that name, or its placement cannot be resolved (reported).
+/// Machine values of a work offset of the job (mm, rad; all of X Y Z A B C present), worked out
+/// from its placement where it has one: the axis values that put the gauge line on the frame's
+/// origin at its B, C. nullopt: the job has none of that name, or its placement cannot be resolved
+/// (reported).
 std::optional<std::map<char, double>> OffsetValues(const Machine& machine, const Job& job,
-                                                   const std::string& name, Diagnostics* diagnostics);
+                                                   const std::string& name,
+                                                   Diagnostics* diagnostics);
 
-/// X_BP: the work offset as a frame, riding on the table: origin where the gauge line stands at these machine values,
-/// machine directions at their B, C. By the metal (the URDF).
+/// X_BP: the work offset as a frame, riding on the table: origin where the gauge line stands at
+/// these machine values, machine directions at their B, C. By the metal (the URDF).
 Eigen::Isometry3d OffsetFrame(const Machine& machine, const std::map<char, double>& values);
 
 /// Resolves every placement. Meshes of bodies are moved, not copied, out of `job` copies.

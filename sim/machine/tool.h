@@ -9,8 +9,9 @@
 
 namespace ncsim::machine {
 
-/// One element of a profile in the half plane (z, r): z from the tip toward the gauge line, r from the axis; mm.
-/// A straight element, or an arc about `centre` (the corner radius of a ball or bull nose), convex outward.
+/// One element of a profile in the half plane (z, r): z from the tip toward the gauge line, r from
+/// the axis; mm. A straight element, or an arc about `centre` (the corner radius of a ball or bull
+/// nose), convex outward.
 struct ProfileElement {
   Eigen::Vector2d start;  ///< (z, r)
   Eigen::Vector2d end;
@@ -18,8 +19,8 @@ struct ProfileElement {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
 };
 
-/// A closed solid of revolution. The elements run from the axis at the lower end to the axis at the upper end with
-/// z never decreasing; the axis closes it.
+/// A closed solid of revolution. The elements run from the axis at the lower end to the axis at the
+/// upper end with z never decreasing; the axis closes it.
 struct Profile {
   std::vector<ProfileElement> elements;
   bool empty() const { return elements.empty(); }
@@ -39,7 +40,8 @@ struct Tool {
   Profile flutes;
   Profile shank;
   Profile holder;
-  // The control's registers where they differ from the metal; geometry defaults to length and diameter.
+  // The control's registers where they differ from the metal; geometry defaults to length and
+  // diameter.
   double h_geometry = 0.0, h_wear = 0.0, d_geometry = 0.0, d_wear = 0.0;
   /// Non-empty: shape or length were assumed or read from the program's header; why, in words.
   std::string assumed;
