@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts and clearances over whole motions. FCL stays behind this header. Knows no NC text and no control.
+// Contacts and clearances over whole motions. FCL stays behind this header. Knows no NC text and no
+// control.
 #pragma once
 
 #include <memory>
@@ -15,7 +16,8 @@
 
 namespace ncsim::collision {
 
-/// The least clearance of a pair over the program: never less than `proven_mm` anywhere, `seen_mm` at `where`.
+/// The least clearance of a pair over the program: never less than `proven_mm` anywhere, `seen_mm`
+/// at `where`.
 struct PairClearance {
   std::vector<std::string> bodies;  ///< Tool side first: {"T3.holder", "vise_jaw"}.
   double proven_mm = 0.0;
@@ -36,8 +38,9 @@ struct CollisionResult {
   std::vector<DeepestCut> cuts;
 };
 
-/// Checks every pair of bodies that can move against each other, over the whole of every motion: an interval is proven
-/// clear when the clearance at one of its poses exceeds motion::RelativeBound, else it is split; a hit is a pose.
+/// Checks every pair of bodies that can move against each other, over the whole of every motion: an
+/// interval is proven clear when the clearance at one of its poses exceeds motion::RelativeBound,
+/// else it is split; a hit is a pose.
 class CollisionChecker {
  public:
   CollisionChecker(const machine::Machine& machine, const machine::Scene& scene,

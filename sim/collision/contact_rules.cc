@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/collision/contact_rules.h"
+
+#include <algorithm>
+
+namespace ncsim::collision {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+void WatchClearance(const motion::Motion& motion, const machine::CheckSettings& settings,
+                    Watch* watch) {
+  watch->clearance = settings.clearance;
+  watch->rounding = motion.facts.corner_rounding;
+  watch->track = true;
+  watch->track_below = 2.0 * settings.clearance;
+}
+
+}  // namespace
+
+void RapidReference::OnFeed(double depth) {
+  feed_depth_ = after_feed_ ? std::max(feed_depth_, depth) : depth;
+  after_feed_ = true;
+}
+
+double RapidReference::OnRapid(int cycle, double start_depth) {
+  if (after_feed_) {
+    depth_ = std::max(feed_depth_, start_depth);
+    if (cycle != cycle_) cycle_depth_ = 0.0;
+    cycle_ = cycle;
+    if (cycle > 0) cycle_depth_ = std::max(cycle_depth_, depth_);
+    after_feed_ = false;
+    feed_depth_ = 0.0;
+  }
+  if (start_depth <= 0.0) depth_ = 0.0;
+  return std::max(depth_, cycle > 0 && cycle == cycle_ ? cycle_depth_ : 0.0);
+}
+
+bool Uncut(const BlankState& blank, std::uint64_t number, double s) {
+  return !blank.cut || (blank.motion == number && s < blank.s);
+}
+
+bool IsRapid(const motion::Motion& motion) {
+  return motion.kind == motion::MotionKind::kRapid ||
+         motion.kind == motion::MotionKind::kToolChange;
+}
+
+bool IsCuttingFeed(const motion::Motion& motion) {
+  return motion.kind == motion::MotionKind::kFeed || motion.kind == motion::MotionKind::kArc;
+}
+
+Judgement Judge(PairRole role, const motion::Motion& motion, const machine::CheckSettings& settings,
+                const BlankState* blank, std::uint64_t number, double allowed, double floor) {
+  Judgement judgement;
+  judgement.checked = true;
+  const bool rapid = IsRapid(motion);
+  const auto clamp = [floor](double tolerance) { return std::min(tolerance, -0.5 * floor); };
+  switch (role) {
+    case PairRole::kNeverTouch:
+      WatchClearance(motion, settings, &judgement.watch);
+      break;
+    case PairRole::kFlutesPart:
+    case PairRole::kThinShankPart:
+      judgement.tolerance = rapid ? settings.part_tolerance : settings.gouge_tolerance;
+      judgement.watch.contact = -(clamp(judgement.tolerance) + (rapid ? allowed : 0.0));
+      if (role == PairRole::kThinShankPart) break;
+      judgement.rule = rapid ? Rule::kRapidContact : Rule::kGouge;
+      if (rapid) break;
+      if (settings.gouge == machine::GougeMode::kWarning) judgement.severity = Severity::kWarning;
+      if (settings.gouge == machine::GougeMode::kOff) judgement.watch.contact = -kInfinity;
+      judgement.watch.track = true;
+      judgement.watch.track_below = kInfinity;
+      judgement.watch.track_ceiling = 0.0;
+      break;
+    case PairRole::kFlutesBlank:
+      judgement.rule = Rule::kStockContact;
+      judgement.checked = !blank->cut;
+      break;
+    case PairRole::kThinShankBlank:
+      judgement.rule = Rule::kStockContact;
+      judgement.checked = Uncut(*blank, number, 0.0);
+      break;
+    case PairRole::kOtherBlank:
+      judgement.rule = Rule::kStockContact;
+      if (blank->cut) break;
+      WatchClearance(motion, settings, &judgement.watch);
+      judgement.watch.track = false;  // a clearance to what will be cut away is no number to report
+      break;
+  }
+  return judgement;
+}
+
+}  // namespace ncsim::collision

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/collision/engine.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ncsim::collision {
+
+namespace {
+
+using Eigen::Isometry3d;
+
+class ToolEngine final : public PairEngine {
+ public:
+  ToolEngine(std::shared_ptr<const ToolBody> a, std::shared_ptr<const MeshBody> b)
+      : a_(std::move(a)), b_(std::move(b)), kernel_(a_->shape, b_->tree) {}
+
+  std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
+    return kernel_.Surface(ToolPose(X_BA, a_->length), goal);
+  }
+  bool Contained(const Isometry3d& X_BA) override {
+    return kernel_.Contained(ToolPose(X_BA, a_->length));
+  }
+  std::optional<Interval> Solid(const Isometry3d& X_BA, const DistanceGoal& goal) override {
+    return kernel_.Solid(ToolPose(X_BA, a_->length), goal);
+  }
+  bool Confirms(const Isometry3d& X_BA) override {
+    const std::optional<bool> hit = Collide(a_->fcl, b_->fcl, X_BA);
+    if (!hit.has_value() || *hit || Contained(X_BA)) return true;
+    // A body wholly inside the tool: its surface meets nothing either.
+    const RevolvedPose pose = ToolPose(X_BA, a_->length);
+    return std::any_of(b_->tree.representatives().begin(), b_->tree.representatives().end(),
+                       [&](const Eigen::Vector3d& p) {
+                         const double z = (p - pose.tip).dot(pose.axis);
+                         const double r = (p - pose.tip - z * pose.axis).norm();
+                         return a_->shape.exact().Distance(z, r) < 0.0;
+                       });
+  }
+  bool has_depth() const override { return true; }
+  double floor() const override { return -a_->shape.inradius(); }
+
+ private:
+  std::shared_ptr<const ToolBody> a_;
+  std::shared_ptr<const MeshBody> b_;
+  ProfileDistance kernel_;
+};
+
+class MeshEngine final : public PairEngine {
+ public:
+  MeshEngine(std::shared_ptr<const MeshBody> a, std::shared_ptr<const MeshBody> b)
+      : a_(std::move(a)), b_(std::move(b)) {}
+
+  std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
+    const double cut = std::max(goal.stop_above, 1.0);
+    const std::optional<double> distance = Distance(a_->fcl, b_->fcl, X_BA, cut);
+    if (!distance.has_value()) return std::nullopt;
+    Interval result;
+    result.lower = *distance - kFclDistanceError;
+    if (*distance < cut) result.upper = *distance;
+    return result;
+  }
+  bool Contained(const Isometry3d& X_BA) override {
+    const Isometry3d X_AB = X_BA.inverse();
+    const auto inside = [](const MeshBody& inner, const MeshBody& outer, const Isometry3d& X) {
+      return std::any_of(inner.tree.representatives().begin(), inner.tree.representatives().end(),
+                         [&](const Eigen::Vector3d& p) { return outer.tree.Contains(X * p); });
+    };
+    return inside(*a_, *b_, X_BA) || inside(*b_, *a_, X_AB);
+  }
+  std::optional<Interval> Solid(const Isometry3d& X_BA, const DistanceGoal& goal) override {
+    std::optional<Interval> result = Clearance(X_BA, goal);
+    if (result.has_value() && result->upper > 0.0 && Contained(X_BA)) result = Interval{0.0, 0.0};
+    return result;
+  }
+  bool Confirms(const Isometry3d& X_BA) override {
+    const std::optional<bool> hit = Collide(a_->fcl, b_->fcl, X_BA);
+    return !hit.has_value() || *hit || Contained(X_BA);
+  }
+  bool has_depth() const override { return false; }
+  double floor() const override { return 0.0; }
+
+ private:
+  std::shared_ptr<const MeshBody> a_;
+  std::shared_ptr<const MeshBody> b_;
+};
+
+}  // namespace
+
+std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const ToolBody> a,
+                                       std::shared_ptr<const MeshBody> b) {
+  return std::make_unique<ToolEngine>(std::move(a), std::move(b));
+}
+
+std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const MeshBody> a,
+                                       std::shared_ptr<const MeshBody> b) {
+  return std::make_unique<MeshEngine>(std::move(a), std::move(b));
+}
+
+}  // namespace ncsim::collision

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/collision/pair_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/text.h"
+
+namespace ncsim::collision {
+
+namespace {
+
+using motion::Motion;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// A contact that the kernel finds deeper than this must be seen by FCL on circumscribed meshes too.
+constexpr double kConfirmDepth = 0.02;
+
+std::unique_ptr<PairEngine> EngineOf(const Pair& pair) {
+  return pair.tool ? MakeEngine(pair.tool, pair.b) : MakeEngine(pair.mesh_a, pair.b);
+}
+
+motion::PairPath PathOf(const machine::Machine& machine, const Pair& pair) {
+  return motion::PairPath(machine.tree, pair.extent_a(), pair.link_b(),
+                          machine.five_axis ? &*machine.five_axis : nullptr);
+}
+
+}  // namespace
+
+PairMonitor::PairMonitor(const machine::Machine& machine, const machine::CheckSettings& settings,
+                         Pair pair, BlankState* blank, NumberedFindings* findings)
+    : machine_(&machine),
+      settings_(settings),
+      pair_(std::move(pair)),
+      blank_(blank),
+      findings_(findings),
+      engine_(EngineOf(pair_)),
+      sweep_(PathOf(machine, pair_), engine_.get()) {}
+
+bool PairMonitor::has_clearance() const {
+  if (pair_.role != PairRole::kNeverTouch || uncertified_) return false;
+  if (touched_ && !engine_->has_depth()) return false;
+  return std::isfinite(sweep_.least().lower) && std::isfinite(sweep_.least().upper);
+}
+
+void PairMonitor::Pause() {
+  CloseRuns();
+  sweep_.Forget();
+  reference_.Reset();
+  warned_ = false;
+}
+
+void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
+  if (!pair_.defect.empty()) {
+    ReportOnce(Rule::kUncertified, motion, number,
+               "clearance of " + Spoken(pair_.names.front()) + " and " +
+                   Spoken(pair_.names.back()) + " cannot be proven: " + pair_.defect);
+    return;
+  }
+  OnSpindleStopped(motion, number);
+  const double allowed = AllowedDepth(motion);
+  Judgement judgement =
+      Judge(pair_.role, motion, settings_, blank_, number, allowed, engine_->floor());
+  if (!judgement.checked || warned_) {
+    CloseRuns();
+    sweep_.Forget();
+    return;
+  }
+  judgement.watch.run_least = near_.open ? near_.least : kInfinity;
+  judgement.watch.find_first = !contact_.open || pair_.role == PairRole::kOtherBlank;
+  const SweepResult result = sweep_.Check(motion, judgement.watch);
+  if (result.uncertified) {
+    ReportOnce(Rule::kUncertified, motion, number,
+               "clearance of " + Spoken(pair_.names.front()) + " and " +
+                   Spoken(pair_.names.back()) + " could not be computed");
+  } else if (result.contact) {
+    OnContact(motion, number, judgement, result);
+  } else {
+    OnClear(motion, number, judgement, result);
+  }
+  if (!IsRapid(motion)) {
+    const double seen = contact_.open ? contact_.least : result.least.upper;
+    reference_.OnFeed(std::max(0.0, -seen));
+  }
+}
+
+// The depth that a rapid may keep: it is where the feed before it left the tool.
+double PairMonitor::AllowedDepth(const Motion& motion) {
+  const bool cutting =
+      pair_.role == PairRole::kFlutesPart || pair_.role == PairRole::kThinShankPart;
+  if (!cutting || !IsRapid(motion)) return 0.0;
+  double start = 0.0;
+  if (reference_.wants_start()) {
+    const std::optional<Interval> at = sweep_.At(motion, {0.0, 0.0}, 0.0);
+    if (at.has_value() && std::isfinite(at->upper)) start = std::max(0.0, -at->upper);
+  }
+  return reference_.OnRapid(motion.facts.cycle, start);
+}
+
+void PairMonitor::OnSpindleStopped(const Motion& motion, std::uint64_t number) {
+  const bool applies =
+      pair_.role == PairRole::kFlutesPart || (pair_.role == PairRole::kFlutesBlank && !blank_->cut);
+  if (!applies || !IsCuttingFeed(motion) || motion.facts.spindle_on) {
+    CloseStopped();
+    return;
+  }
+  Watch touch;
+  touch.find_first = !stopped_.open;
+  const SweepResult result = sweep_.Probe(motion, touch);
+  if (!result.contact) {
+    CloseStopped();
+    return;
+  }
+  if (!stopped_.open) {
+    Open(motion, number, Rule::kSpindleStopped, Severity::kError, result.first, &stopped_);
+  }
+  stopped_.least = std::min(stopped_.least, std::min(0.0, result.least.upper));
+  Count(motion, &stopped_);
+}
+
+void PairMonitor::OnContact(const Motion& motion, std::uint64_t number, const Judgement& judgement,
+                            const SweepResult& result) {
+  CloseNear();
+  Severity severity = judgement.severity;
+  if (pair_.role == PairRole::kFlutesBlank && IsCuttingFeed(motion)) {
+    OnFirstCut(number, result);
+    return;
+  }
+  if (blank_ != nullptr && !Uncut(*blank_, number, result.first.s)) {
+    if (pair_.role == PairRole::kThinShankBlank) {
+      CloseContact();
+      return;
+    }
+    severity = Severity::kWarning;
+  }
+  if (contact_.open &&
+      (contact_.finding.rule != judgement.rule || contact_.finding.severity != severity)) {
+    CloseContact();
+  }
+  const bool first = !contact_.open;
+  if (first) {
+    Open(motion, number, judgement.rule, severity, result.first, &contact_);
+    contact_.words.tolerance = judgement.tolerance;
+    if (engine_->has_depth()) contact_.least = std::min(0.0, result.least.upper);
+  }
+  touched_ = true;
+  Count(motion, &contact_);
+  Deepen(motion, judgement.watch.track, &contact_);
+  // One warning a tool is enough: until the stock is simulated there is nothing more to say.
+  if (pair_.role == PairRole::kOtherBlank && severity == Severity::kWarning) {
+    CloseContact();
+    warned_ = true;
+  }
+}
+
+void PairMonitor::OnFirstCut(std::uint64_t number, const SweepResult& result) {
+  CloseContact();
+  blank_->cut = true;
+  blank_->motion = number;
+  blank_->s = result.first.s;
+}
+
+void PairMonitor::Deepen(const Motion& motion, bool track, Run* run) {
+  if (!engine_->has_depth()) return;
+  const double known = run->blocks > 1 ? run->least : kInfinity;
+  PathPoint at;
+  const Interval depth = sweep_.Deepest(motion, run->with_lag, known, &at);
+  if (track) sweep_.Include({depth.lower, std::min(depth.upper, run->least)}, motion.where);
+  if (depth.upper < run->least) run->least = depth.upper;
+  if (run->blocks == 1 && depth.upper < -kConfirmDepth) Confirm(motion, run->number, at);
+}
+
+void PairMonitor::Confirm(const Motion& motion, std::uint64_t number, const PathPoint& at) {
+  if (engine_->Confirms(sweep_.Pose(motion, at))) return;
+  ReportOnce(Rule::kUncertified, motion, number,
+             "the two collision engines disagree about a contact of " +
+                 Spoken(pair_.names.front()) + " and " + Spoken(pair_.names.back()));
+}
+
+void PairMonitor::OnClear(const Motion& motion, std::uint64_t number, const Judgement& judgement,
+                          const SweepResult& result) {
+  CloseContact();
+  const Watch& watch = judgement.watch;
+  const bool rounded = watch.rounding > 0.0 && result.least.lower <= watch.rounding;
+  const bool near = watch.clearance > 0.0 && result.least.upper < watch.clearance;
+  if (!rounded && !near) {
+    CloseNear();
+    return;
+  }
+  const Rule rule = rounded ? Rule::kUncertified : Rule::kNearMiss;
+  if (near_.open && near_.finding.rule != rule) CloseNear();
+  if (!near_.open) Open(motion, number, rule, Info(rule).severity, result.least_at, &near_);
+  near_.words.tolerance = rounded ? watch.rounding : watch.clearance;
+  if (result.least.upper < near_.least) {
+    near_.least = result.least.upper;
+    Place(motion, result.least_at, &near_);
+  }
+  Count(motion, &near_);
+}
+
+void PairMonitor::ReportOnce(Rule rule, const Motion& motion, std::uint64_t number,
+                             std::string message) {
+  if (uncertified_) return;
+  uncertified_ = true;
+  Finding finding = MakeFinding(rule, motion.where, std::move(message));
+  finding.bodies = pair_.names;
+  findings_->emplace_back(number, std::move(finding));
+}
+
+void PairMonitor::Open(const Motion& motion, std::uint64_t number, Rule rule, Severity severity,
+                       const PathPoint& at, Run* run) {
+  *run = Run();
+  run->open = true;
+  run->number = number;
+  run->finding = MakeFinding(rule, motion.where, "");
+  run->finding.severity = severity;
+  run->finding.bodies = pair_.names;
+  run->with_lag = at.lag > 0.0;
+  run->words.rule = rule;
+  run->words.severity = severity;
+  run->words.has_depth = engine_->has_depth();
+  run->words.only_lag = run->with_lag;
+  Place(motion, at, run);
+}
+
+void PairMonitor::Place(const Motion& motion, const PathPoint& at, Run* run) {
+  run->finding.where = motion.where;
+  run->finding.axes = AxisValues(*machine_, motion.At(at.s, at.lag));
+  run->finding.time_s = motion.start_time + motion.ElapsedTime(at.s, at.lag);
+  run->where_text = Spoken(run->finding.axes);
+}
+
+void PairMonitor::Count(const Motion& motion, Run* run) {
+  const bool same_block =
+      motion.where.line == run->last.line && motion.where.file == run->last.file;
+  if (run->blocks == 0 || !same_block) ++run->blocks;
+  run->last = motion.where;
+}
+
+void PairMonitor::CloseContact() {
+  if (!contact_.open) return;
+  contact_.words.depth = std::max(0.0, -contact_.least);
+  if (engine_->has_depth()) contact_.finding.clearance_mm = -contact_.words.depth;
+  contact_.finding.message = DescribeContact(pair_, contact_.words, contact_.where_text);
+  Emit(&contact_);
+}
+
+void PairMonitor::CloseStopped() {
+  if (!stopped_.open) return;
+  stopped_.finding.message = DescribeContact(pair_, stopped_.words, stopped_.where_text);
+  Emit(&stopped_);
+}
+
+void PairMonitor::CloseNear() {
+  if (!near_.open) return;
+  const double least = std::max(0.0, near_.least);
+  std::string text = Spoken(pair_.names.front()) + " comes within " + Short(least, 2) + " mm of " +
+                     Spoken(pair_.names.back());
+  const std::string limit = Short(near_.words.tolerance, 3) + " mm";
+  text += near_.finding.rule == Rule::kNearMiss
+              ? " (clearance " + limit + ")"
+              : ", and the control may round the corner by " + limit + ",";
+  near_.finding.clearance_mm = least;
+  near_.finding.message = text + " at " + near_.where_text;
+  Emit(&near_);
+}
+
+void PairMonitor::Emit(Run* run) {
+  if (run->blocks > 1) {
+    run->finding.message += " (" + std::to_string(run->blocks) + " blocks, the last is line " +
+                            std::to_string(run->last.line) + ")";
+  }
+  findings_->emplace_back(run->number, std::move(run->finding));
+  *run = Run();
+}
+
+void PairMonitor::CloseRuns() {
+  CloseContact();
+  CloseNear();
+  CloseStopped();
+}
+
+}  // namespace ncsim::collision

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Conformance of the two engines: kernel and FCL against closed forms, and against each other.
+#include "sim/collision/profile_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/collision/fcl_backend.h"
+#include "sim/collision/tessellate.h"
+#include "sim/collision/test_shapes.h"
+
+namespace ncsim::collision {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLength = 100.0;
+
+// A tool whose tip is at `tip`, axis up.
+Eigen::Isometry3d Upright(const Vector3d& tip) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = Eigen::AngleAxisd(3.14159265358979323846, Vector3d::UnitX()).toRotationMatrix();
+  X.translation() = tip + Vector3d(0, 0, kLength);
+  return X;
+}
+
+TEST(ProfileDistanceTest, ClosedForms) {
+  const machine::TriangleMesh box = BoxMesh({-50, -50, -20}, {50, 50, 0});
+  const TriangleTree tree(box);
+  const ProfileShape ball(BallProfile(3, 30));
+  const ProfileShape end(CylinderProfile(0, 30, 6));
+  ProfileDistance ball_kernel(ball, tree);
+  ProfileDistance end_kernel(end, tree);
+  struct Case {
+    Vector3d tip;
+    double ball, end;
+  };
+  // Above the top face; beside the box; off its corner edge (3-4-5 with the rim or the ball's
+  // centre).
+  const std::vector<Case> cases = {
+      {{7.3, -3.1, 0.5}, 0.5, 0.5},
+      {{60, 0, -10}, 7.0, 4.0},
+      {{7.3, -3.1, -1.25}, -1.25, -1.25},
+  };
+  for (const Case& c : cases) {
+    for (ProfileDistance* kernel : {&ball_kernel, &end_kernel}) {
+      const double truth = kernel == &ball_kernel ? c.ball : c.end;
+      const Interval d = kernel->Surface(ToolPose(Upright(c.tip), kLength), {});
+      EXPECT_LE(d.lower, truth + 1e-9) << c.tip.transpose();
+      EXPECT_GE(d.upper, truth - 1e-9) << c.tip.transpose();
+      EXPECT_LT(d.upper - d.lower, 0.0021);
+    }
+  }
+  // Ball's centre 3 above the edge x = 50, 4 beyond it: 5 - 3.
+  const Interval d = ball_kernel.Surface(ToolPose(Upright({54, 0, 0}), kLength), {});
+  EXPECT_NEAR(d.upper, 2.0, 0.0021);
+}
+
+TEST(ProfileDistanceTest, SolidDepthCountsTheInside) {
+  const TriangleTree tree(BoxMesh({-50, -50, -60}, {50, 50, 0}));
+  const ProfileShape ball(BallProfile(3, 30));
+  ProfileDistance kernel(ball, tree);
+  // The ball's centre is 1 below the face. The surface alone would say 2; the ball must vanish: 3.
+  EXPECT_NEAR(kernel.Surface(ToolPose(Upright({0, 0, -4}), kLength), {}).upper, -3.0, 0.003);
+  const Interval deep = kernel.Solid(ToolPose(Upright({0, 0, -40}), kLength), {});
+  EXPECT_NEAR(deep.upper, -3.0, 0.003);
+  EXPECT_LE(deep.lower, -3.0 + 0.003);
+  EXPECT_TRUE(kernel.Contained(ToolPose(Upright({0, 0, -40}), kLength)));
+  EXPECT_FALSE(kernel.Contained(ToolPose(Upright({0, 0, 1}), kLength)));
+  EXPECT_FALSE(kernel.Contained(ToolPose(Upright({60, 0, -40}), kLength)));
+}
+
+TEST(ProfileDistanceTest, FlatOnFlatIsCheap) {
+  // A flat face on a flat face: every point of the disc is a minimum. A pure Lipschitz search needs
+  // 10^7 cells here.
+  const TriangleTree tree(BoxMesh({-500, -500, -20}, {500, 500, 0}));
+  const ProfileShape shape(PolyProfile({{0, 0}, {0, 25}, {20, 25}, {20, 40}, {60, 40}, {60, 0}}));
+  ProfileDistance kernel(shape, tree);
+  for (double z : {1.0, 0.05, -0.05, -3.0}) {
+    DistanceGoal goal;
+    goal.max_evaluations = 3000;
+    const Interval d = kernel.Surface(ToolPose(Upright({11, 7, z}), kLength), goal);
+    EXPECT_LE(d.lower, z + 1e-9);
+    EXPECT_GE(d.upper, z - 1e-9);
+    EXPECT_LT(d.upper - d.lower, 0.0021) << z;
+  }
+}
+
+// Random poses: [lower, upper] holds FCL's distance to the circumscribed mesh, up to the sagitta.
+void AgreeWithFcl(const machine::Profile& profile, const machine::TriangleMesh& mesh, int poses,
+                  double reach, unsigned seed) {
+  const ProfileShape shape(profile);
+  const TriangleTree tree(mesh);
+  ProfileDistance kernel(shape, tree);
+  const FclMesh fcl_tool(Tessellate(profile, kLength));
+  const FclMesh fcl_mesh(mesh);
+  std::mt19937 random(seed);
+  int hits = 0;
+  for (int i = 0; i < poses; ++i) {
+    const Eigen::Isometry3d X = RandomPose(random, reach);
+    const Interval d = kernel.Surface(ToolPose(X, kLength), {});
+    ASSERT_LE(d.lower, d.upper);
+    ASSERT_LT(d.upper - d.lower, 0.0021);
+    const auto fcl = Distance(fcl_tool, fcl_mesh, X, 1e9);
+    const auto hit = Collide(fcl_tool, fcl_mesh, X);
+    ASSERT_TRUE(fcl && hit);
+    if (d.upper > 0.0) {
+      EXPECT_LE(*fcl, d.upper + 1e-6) << i;
+      EXPECT_GE(*fcl, d.lower - kSagitta - 1e-6) << i;
+    }
+    if (d.lower > kSagitta) {
+      EXPECT_FALSE(*hit) << i;
+    }
+    // A mesh that is wholly inside the tool does not meet its surface.
+    if (d.upper < -1e-6) ++hits;
+    if (d.upper < -1e-6 && d.upper > -0.5) {
+      EXPECT_TRUE(*hit) << i;
+    }
+  }
+  EXPECT_GT(hits, poses / 200) << "the poses do not test contact";
+}
+
+TEST(ProfileDistanceTest, AgreesWithFclBallOnSphere) {
+  AgreeWithFcl(BallProfile(6, 60), SphereMesh({0, 0, 0}, 40, 20), 1500, 150, 11);
+}
+TEST(ProfileDistanceTest, AgreesWithFclHolderOnBox) {
+  AgreeWithFcl(
+      PolyProfile(
+          {{20, 0}, {20, 20}, {50, 25}, {50, 31.5}, {60, 31.5}, {60, 22}, {100, 34.9}, {100, 0}}),
+      BoxMesh({-30, -60, -20}, {30, 60, 20}), 1500, 120, 12);
+}
+TEST(ProfileDistanceTest, AgreesWithFclConeOnSphere) {
+  AgreeWithFcl(PolyProfile({{0, 0}, {40, 25}, {40, 0}}), SphereMesh({5, 0, 0}, 30, 14), 1000, 120,
+               13);
+}
+
+TEST(ProfileDistanceTest, EarlyStopsAreCertified) {
+  const machine::TriangleMesh mesh = SphereMesh({0, 0, 0}, 40, 20);
+  const TriangleTree tree(mesh);
+  const ProfileShape shape(BallProfile(6, 60));
+  ProfileDistance kernel(shape, tree);
+  std::mt19937 random(5);
+  for (int i = 0; i < 500; ++i) {
+    const RevolvedPose pose = ToolPose(RandomPose(random, 150), kLength);
+    const Interval fine = kernel.Surface(pose, {});
+    DistanceGoal loose;
+    loose.relative_gap = 0.2;
+    const Interval coarse = kernel.Surface(pose, loose);
+    EXPECT_LE(coarse.lower, fine.upper);
+    EXPECT_GE(coarse.upper, fine.lower);
+    DistanceGoal cut;
+    cut.stop_above = 1.0;
+    const Interval early = kernel.Surface(pose, cut);
+    EXPECT_LE(early.lower, fine.upper);
+    if (fine.lower > 1.01) {
+      EXPECT_GE(early.lower, 1.0 - 1e-5);
+    }
+  }
+}
+
+TEST(TriangleTreeTest, OverlappingShellsAreOneSolid) {
+  machine::TriangleMesh mesh = BoxMesh({0, 0, 0}, {10, 10, 10});
+  const machine::TriangleMesh other = BoxMesh({5, 0, 0}, {15, 10, 10});
+  for (auto t : other.triangles) mesh.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  const TriangleTree tree(mesh);
+  EXPECT_TRUE(tree.Contains({7, 5, 5}));  // in both: parity would call it outside
+  EXPECT_TRUE(tree.Contains({2, 5, 5}));
+  EXPECT_FALSE(tree.Contains({7, 5, 11}));
+  EXPECT_EQ(tree.representatives().size(), 2u);
+}
+
+}  // namespace
+}  // namespace ncsim::collision

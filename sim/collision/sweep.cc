@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/collision/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ncsim::collision {
+
+namespace {
+
+using motion::Motion;
+using motion::Span;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFirstContact = 1e-3;    // of the motion
+constexpr double kFine = 0.02;            // mm, of a least clearance near the threshold
+constexpr double kDepthTolerance = 5e-3;  // mm
+constexpr double kBudget = 20.0;          // mm
+constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
+constexpr int kDepthQueries = 300;        // a motion
+constexpr int kDepthEvaluations = 4000;   // a query
+constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
+
+bool SamePose(const motion::JointVector& a, const motion::JointVector& b) {
+  return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() <= 1e-9;
+}
+
+PathPoint Middle(const Span& span) {
+  return {0.5 * (span.s0 + span.s1), 0.5 * (span.lag0 + span.lag1)};
+}
+
+// The half of a (s, lag) box that matters more: cut the side along which the pair moves further.
+std::pair<Span, Span> Halve(const Motion& motion, const motion::PairPath& path, const Span& span) {
+  const PathPoint middle = Middle(span);
+  Span first = span;
+  Span second = span;
+  bool cut_lag = false;
+  if (span.lag1 > span.lag0) {
+    const Span along{span.s0, span.s1, middle.lag, middle.lag};
+    const Span across{middle.s, middle.s, span.lag0, span.lag1};
+    cut_lag = motion::RelativeBound(motion, path, across, middle.s, middle.lag) >
+              motion::RelativeBound(motion, path, along, middle.s, middle.lag);
+  }
+  if (cut_lag) {
+    first.lag1 = second.lag0 = middle.lag;
+  } else {
+    first.s1 = second.s0 = middle.s;
+  }
+  return {first, second};
+}
+
+}  // namespace
+
+PairSweep::PairSweep(motion::PairPath path, PairEngine* engine)
+    : path_(std::move(path)), engine_(engine) {}
+
+void PairSweep::Forget() { known_ = Known{}; }
+
+Eigen::Isometry3d PairSweep::Pose(const Motion& motion, const PathPoint& point) const {
+  return path_.path.Pose(motion.At(point.s, point.lag));
+}
+
+void PairSweep::Include(const Interval& clearance, const SourcePosition& where) {
+  least_.lower = std::min(least_.lower, clearance.lower);
+  if (clearance.upper < least_.upper) {
+    least_.upper = clearance.upper;
+    least_where_ = where;
+  }
+}
+
+// What an interval must be proven to clear. Above the contact level this serves reported numbers
+// only.
+double PairSweep::Need(const Sweep& sweep) const {
+  const Watch& watch = sweep.watch;
+  const double found = sweep.result.least.upper;
+  double need = watch.contact;
+  // Not known to be below a threshold: prove that it is not.
+  if (watch.rounding > 0.0 && found >= watch.rounding) need = std::max(need, watch.rounding);
+  const bool tired = sweep.refinements >= kRefinements;
+  if (watch.track && least_.upper < kInfinity) {
+    const double seen = std::min(least_.upper, watch.track_ceiling);
+    const bool fine = seen < watch.track_below && !tired;
+    need = std::max(need, fine ? seen - kFine : (tired ? 0.5 : 0.75) * seen);
+  }
+  if (tired) return need;
+  if (watch.clearance > 0.0 && found >= watch.clearance) {
+    need = std::max(need, watch.clearance);
+  } else if (watch.clearance > 0.0) {
+    // Known to be: follow the least clearance of the run.
+    const double run = std::min(watch.run_least, found);
+    need = std::max(need, run - std::max(0.05, 0.1 * run));
+  }
+  return need;
+}
+
+SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
+  if (!SamePose(known_.q, motion.q0())) Forget();
+  const Span whole = motion::Whole(motion);
+  Sweep sweep;
+  sweep.motion = &motion;
+  sweep.watch = watch;
+  sweep.result.least = {kInfinity, kInfinity};
+  if (!known_.outside && !Start(&sweep)) {
+    Forget();
+    known_.q = motion.q1();
+    return sweep.result;
+  }
+  const double bound = motion::RelativeBound(motion, path_, whole, 0.0, whole.lag0);
+  if (known_.outside && known_.clearance - bound > Need(sweep)) {
+    known_.clearance -= bound;
+    known_.q = motion.q1();
+    if (watch.track) least_.lower = std::min(least_.lower, known_.clearance);
+    sweep.result.least.lower = known_.clearance;
+    return sweep.result;
+  }
+  Cover(whole, &sweep);
+  const SweepResult& result = sweep.result;
+  if (result.contact || result.uncertified) {
+    Forget();
+    known_.q = motion.q1();
+    if (result.contact && whole.lag1 > 0.0 && watch.find_first) {
+      return FirstWithoutLag(result, motion, watch);
+    }
+    return result;
+  }
+  if (watch.track) least_.lower = std::min(least_.lower, result.least.lower);
+  known_.clearance = sweep.end;
+  known_.q = motion.q1();
+  return result;
+}
+
+// Where nothing is known of the start: is one body inside the other, or in contact? From a start
+// that is neither, no body gets inside another without contact on the way.
+bool PairSweep::Start(Sweep* sweep) {
+  std::optional<Interval> clearance = Query(Span{0.0, 0.0, 0.0, 0.0}, 0.0, sweep);
+  sweep->result.uncertified = !clearance.has_value();
+  if (!clearance.has_value()) return false;
+  if (clearance->lower > sweep->watch.contact &&
+      engine_->Contained(Pose(*sweep->motion, PathPoint{}))) {
+    clearance = Interval{engine_->floor(), engine_->floor()};
+    Observe(*clearance, PathPoint{}, sweep);
+  }
+  sweep->result.contact = clearance->lower <= sweep->watch.contact;
+  if (sweep->result.contact) return false;
+  known_.outside = clearance->lower > engine_->floor();
+  known_.clearance = clearance->lower;
+  return true;
+}
+
+SweepResult PairSweep::Probe(const Motion& motion, const Watch& watch) {
+  const Known before = known_;
+  Watch untracked = watch;
+  untracked.track = false;
+  const SweepResult result = Check(motion, untracked);
+  known_ = before;
+  return result;
+}
+
+// A contact of the lag box is worth more where the polyline has it too.
+SweepResult PairSweep::FirstWithoutLag(const SweepResult& with_lag, const Motion& motion,
+                                       const Watch& watch) {
+  Sweep sweep;
+  sweep.motion = &motion;
+  sweep.watch = watch;
+  sweep.watch.track = false;
+  sweep.watch.clearance = 0.0;
+  sweep.result.least = {kInfinity, kInfinity};
+  Cover(Span{0.0, 1.0, 0.0, 0.0}, &sweep);
+  const motion::JointVector q = motion.q1();
+  Forget();
+  known_.q = q;
+  return sweep.result.contact ? sweep.result : with_lag;
+}
+
+std::optional<Interval> PairSweep::Query(const Span& span, double bound, Sweep* sweep) {
+  const PathPoint middle = Middle(span);
+  const Eigen::Isometry3d X_BA = Pose(*sweep->motion, middle);
+  const double need = Need(*sweep);
+  DistanceGoal goal;
+  goal.relative_gap = 0.2;
+  goal.floor = std::max(need, engine_->floor());
+  goal.stop_below = sweep->watch.contact;
+  if (least_.upper < kInfinity) {
+    // Far above what is needed the number does not matter; it is a budget for the motions to come.
+    goal.stop_above = std::max({need + 2.0 * bound, 1.5 * least_.upper, 0.0}) + kBudget;
+  }
+  ++queries_;
+  const std::optional<Interval> clearance = engine_->Clearance(X_BA, goal);
+  if (!clearance.has_value()) return clearance;
+  Observe(*clearance, middle, sweep);
+  return clearance;
+}
+
+void PairSweep::Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep) {
+  if (clearance.upper < sweep->result.least.upper) {
+    sweep->result.least.upper = clearance.upper;
+    sweep->result.least_at = at;
+  }
+  if (sweep->watch.track && clearance.upper < least_.upper) {
+    least_.upper = clearance.upper;
+    least_where_ = sweep->motion->where;
+  }
+}
+
+bool PairSweep::Accept(const Span& span, const Span& whole, const Interval& clearance, double bound,
+                       Sweep* sweep) {
+  const double proven = clearance.lower - bound;
+  if (proven <= sweep->watch.contact) return false;
+  if (proven <= Need(*sweep) && bound > kContactResolution) {
+    ++sweep->refinements;
+    return false;
+  }
+  sweep->result.least.lower = std::min(sweep->result.least.lower, proven);
+  if (span.s1 == whole.s1) sweep->end = std::min(sweep->end, proven);
+  return true;
+}
+
+void PairSweep::Split(const Span& span, const Sweep& sweep) {
+  const auto [first, second] = Halve(*sweep.motion, path_, span);
+  stack_.push_back(second);
+  stack_.push_back(first);
+}
+
+void PairSweep::Cover(const Span& whole, Sweep* sweep) {
+  SweepResult& result = sweep->result;
+  stack_.assign(1, whole);
+  while (!stack_.empty()) {
+    const Span span = stack_.back();
+    stack_.pop_back();
+    if (result.contact && span.s1 - span.s0 <= kFirstContact) continue;
+    const PathPoint middle = Middle(span);
+    const double bound = motion::RelativeBound(*sweep->motion, path_, span, middle.s, middle.lag);
+    const std::optional<Interval> clearance = Query(span, bound, sweep);
+    if (!clearance.has_value() || !std::isfinite(bound)) {
+      result.uncertified = true;
+      return;
+    }
+    if (Accept(span, whole, *clearance, bound, sweep)) continue;
+    const bool unresolved =
+        bound <= kContactResolution && clearance->lower - bound <= sweep->watch.contact;
+    if (clearance->upper <= sweep->watch.contact || unresolved) {
+      result.contact = true;
+      result.first = middle;
+      if (!sweep->watch.find_first) return;
+      // Only what comes before can still matter; with lag, that is all lags up to here.
+      stack_.clear();
+      const bool boxed = whole.lag1 > whole.lag0;
+      stack_.push_back(boxed ? Span{whole.s0, middle.s, whole.lag0, whole.lag1}
+                             : Span{span.s0, middle.s, span.lag0, span.lag1});
+      continue;
+    }
+    if (span.s1 - span.s0 < kLeastWidth && span.lag1 - span.lag0 < kLeastWidth) {
+      result.uncertified = true;
+      return;
+    }
+    Split(span, *sweep);
+  }
+}
+
+std::optional<Interval> PairSweep::At(const Motion& motion, const PathPoint& point, double enough) {
+  DistanceGoal goal;
+  goal.stop_above = enough;
+  goal.max_evaluations = kDepthEvaluations;
+  ++queries_;
+  return engine_->Solid(Pose(motion, point), goal);
+}
+
+Interval PairSweep::Deepest(const Motion& motion, bool with_lag, double known, PathPoint* at) {
+  struct Piece {
+    double lower;
+    Span span;
+    bool operator<(const Piece& o) const { return lower > o.lower; }
+  };
+  Interval best{kInfinity, kInfinity};
+  double limit = known;  // nothing above this is of interest
+  std::vector<Piece> heap;
+  int queries = 0;
+  const auto look = [&](const Span& span) {
+    const PathPoint middle = Middle(span);
+    const double bound = motion::RelativeBound(motion, path_, span, middle.s, middle.lag);
+    const std::optional<Interval> clearance = At(motion, middle, limit - kDepthTolerance + bound);
+    ++queries;
+    if (!clearance.has_value()) return;
+    if (clearance->upper < best.upper) {
+      best.upper = clearance->upper;
+      *at = middle;
+      limit = std::min(limit, best.upper);
+    }
+    heap.push_back({std::max(clearance->lower - bound, engine_->floor() - kDepthTolerance), span});
+    std::push_heap(heap.begin(), heap.end());
+  };
+  Span whole = motion::Whole(motion);
+  if (!with_lag) whole.lag0 = whole.lag1 = 0.0;
+  look(whole);
+  // The ends are where a plunge is deepest.
+  look({whole.s1, whole.s1, whole.lag0, whole.lag0});
+  while (!heap.empty() && heap.front().lower < limit - kDepthTolerance &&
+         limit > engine_->floor() + kDepthTolerance && queries < kDepthQueries) {
+    const Span span = heap.front().span;
+    std::pop_heap(heap.begin(), heap.end());
+    heap.pop_back();
+    if (span.s1 <= span.s0 && span.lag1 <= span.lag0) {
+      best.lower = std::min(best.lower, best.upper - kDepthTolerance);
+      continue;
+    }
+    const auto [first, second] = Halve(motion, path_, span);
+    look(first);
+    look(second);
+  }
+  best.lower = std::min(
+      {best.lower, limit - kDepthTolerance, heap.empty() ? kInfinity : heap.front().lower});
+  return best;
+}
+
+}  // namespace ncsim::collision

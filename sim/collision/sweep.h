@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The certificate: one pair over whole motions. See docs/collision.md for the proof.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "sim/collision/engine.h"
+#include "sim/motion/motion.h"
+
+namespace ncsim::collision {
+
+/// A clearance that is below this above the contact level, and that no further splitting can tell
+/// from contact, counts as contact; mm. False alarms need a true clearance below about twice this.
+inline constexpr double kContactResolution = 0.004;
+
+/// What the sweep of one motion must establish.
+struct Watch {
+  double contact =
+      0.0;  ///< At or below this clearance is contact (-tolerance for flutes); -inf: never.
+  /// Every pose must be told to be at least this clear, or one that is not be found; 0: not wanted.
+  double clearance = 0.0;
+  double rounding =
+      0.0;  ///< As `clearance`, for the deviation that the control may make at corners.
+  /// The least clearance of the near-miss run that is open, to be followed on; +inf for none.
+  double run_least = std::numeric_limits<double>::infinity();
+  bool track = false;  ///< Keep the pair's least clearance (see PairSweep::least).
+  double track_below =
+      0.0;  ///< From here down within 0.02 mm, above within a quarter of what is seen.
+  /// A least clearance above this is of no interest (0 for cuts: only depths count).
+  double track_ceiling = std::numeric_limits<double>::infinity();
+  bool find_first = true;  ///< On contact, find where it begins; else any pose in contact will do.
+};
+
+struct PathPoint {
+  double s = 0.0;
+  double lag = 0.0;
+};
+
+struct SweepResult {
+  bool contact = false;
+  bool uncertified = false;  ///< The engine failed, or the bound did not close.
+  PathPoint first;  ///< First contact, within 1e-3 of the motion. lag > 0: none without lag.
+  /// No pose of the motion is below least.lower, and one (least_at) has least.upper (+inf when none
+  /// was looked at). Without meaning after contact.
+  Interval least;
+  PathPoint least_at;
+};
+
+class PairSweep {
+ public:
+  /// `engine` outlives this.
+  PairSweep(motion::PairPath path, PairEngine* engine);
+
+  /// Motions in order; one that does not start where the last one ended is a jump, after which
+  /// nothing is known.
+  SweepResult Check(const motion::Motion& motion, const Watch& watch);
+
+  /// As Check, but leaves the pair where it was before the motion.
+  SweepResult Probe(const motion::Motion& motion, const Watch& watch);
+
+  /// Deepest pose of a motion that is known to be in contact, to 0.01 mm: at lag 0, or with all
+  /// lags. `known` (negative) is the depth that is not worth looking for. `upper` is +inf where
+  /// nothing deeper than `known` was found.
+  Interval Deepest(const motion::Motion& motion, bool with_lag, double known, PathPoint* at);
+
+  /// Clearance of the solids at a pose of the motion, not told apart above `enough`.
+  std::optional<Interval> At(const motion::Motion& motion, const PathPoint& point, double enough);
+
+  Eigen::Isometry3d Pose(const motion::Motion& motion, const PathPoint& point) const;
+  /// Forgets what is known about the present pose (another tool, a new body).
+  void Forget();
+
+  /// Least clearance over all motions checked with Watch::track.
+  const Interval& least() const { return least_; }
+  bool has_least() const { return least_.upper < std::numeric_limits<double>::infinity(); }
+  const SourcePosition& least_where() const { return least_where_; }
+  /// Puts a depth that was found otherwise into least().
+  void Include(const Interval& clearance, const SourcePosition& where);
+
+  const motion::PairPath& path() const { return path_; }
+  std::uint64_t queries() const { return queries_; }
+
+ private:
+  struct Known {
+    double clearance = -std::numeric_limits<double>::infinity();  // certified at the last end
+    bool outside = false;  // neither body is inside the other
+    motion::JointVector q;
+  };
+  struct Sweep {
+    const motion::Motion* motion = nullptr;
+    Watch watch;
+    SweepResult result;
+    double end = std::numeric_limits<double>::infinity();  // certified at the motion's end
+    int refinements = 0;
+  };
+  double Need(const Sweep& sweep) const;
+  bool Start(Sweep* sweep);
+  void Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep);
+  void Cover(const motion::Span& whole, Sweep* sweep);
+  std::optional<Interval> Query(const motion::Span& span, double bound, Sweep* sweep);
+  bool Accept(const motion::Span& span, const motion::Span& whole, const Interval& clearance,
+              double bound, Sweep* sweep);
+  void Split(const motion::Span& span, const Sweep& sweep);
+  SweepResult FirstWithoutLag(const SweepResult& with_lag, const motion::Motion& motion,
+                              const Watch& watch);
+
+  motion::PairPath path_;
+  PairEngine* engine_;
+  Known known_;
+  Interval least_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  SourcePosition least_where_;
+  std::vector<motion::Span> stack_;
+  std::uint64_t queries_ = 0;
+};
+
+}  // namespace ncsim::collision

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The certificate against dense sampling: random motions of every kind on random machines past
+// random bodies. No contact that a sample finds may be missed, a proven clearance may not be above
+// any sample, and a contact that no sample confirms must be a near one.
+#include "sim/collision/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "sim/collision/test_shapes.h"
+#include "sim/motion/test_motions.h"
+
+namespace ncsim::collision {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Sampled {
+  double least = kInfinity;
+  double least_at_no_lag = kInfinity;
+};
+
+// What sampling must be afraid of: the least clearance between samples, here at steps that make it
+// small.
+Sampled Sample(const motion::Motion& motion, const PairSweep& sweep, PairEngine* engine) {
+  Sampled sampled;
+  const int lags = motion::Whole(motion).lag1 > 0.0 ? 4 : 1;
+  constexpr int kSteps = 200;
+  for (int l = 0; l < lags; ++l) {
+    for (int i = 0; i <= kSteps; ++i) {
+      const PathPoint at{static_cast<double>(i) / kSteps, lags == 1 ? 0.0 : l / (lags - 1.0)};
+      DistanceGoal goal;
+      goal.stop_above = sampled.least;
+      goal.max_evaluations = 300;  // the upper bound is a witness however soon it stops
+      const auto clearance = engine->Solid(sweep.Pose(motion, at), goal);
+      if (!clearance.has_value()) continue;
+      sampled.least = std::min(sampled.least, clearance->upper);
+      if (l == 0) sampled.least_at_no_lag = std::min(sampled.least_at_no_lag, clearance->upper);
+    }
+  }
+  return sampled;
+}
+
+struct Tally {
+  int motions = 0;
+  int contacts = 0;
+  int clear = 0;
+};
+
+void Hold(const motion::Motion& motion, const motion::PairPath& path, PairEngine* engine,
+          double level, Tally* tally) {
+  PairSweep sweep(path, engine);
+  Watch watch;
+  watch.contact = level;
+  watch.track = true;
+  const SweepResult result = sweep.Check(motion, watch);
+  const Sampled sampled = Sample(motion, sweep, engine);
+  ++tally->motions;
+  ASSERT_FALSE(result.uncertified);
+  if (!result.contact) {
+    ++tally->clear;
+    ASSERT_GT(sampled.least, level) << "missed contact";
+    ASSERT_LE(result.least.lower, sampled.least + 1e-6) << "proven above a sample";
+    if (level == 0.0) {
+      EXPECT_GE(result.least.lower, 0.49 * std::min(sampled.least, result.least.upper) - 0.01);
+    }
+    return;
+  }
+  ++tally->contacts;
+  // The pose of the contact is one, up to the resolution.
+  DistanceGoal fine;
+  const auto there = engine->Solid(sweep.Pose(motion, result.first), fine);
+  ASSERT_TRUE(there.has_value());
+  EXPECT_LT(there->upper, level + 0.02);
+  if (result.first.lag > 0.0) {
+    EXPECT_GT(sampled.least_at_no_lag, level - 0.01);
+  }
+  // Nothing before it is deeper in contact.
+  fine.stop_above = level - 0.02;
+  for (int i = 0; i < 100 && result.first.s > 1e-3; ++i) {
+    const PathPoint before{(result.first.s - 1e-3) * i / 100.0, result.first.lag};
+    const auto clearance = engine->Solid(sweep.Pose(motion, before), fine);
+    ASSERT_TRUE(clearance.has_value());
+    if (result.first.lag == 0.0) {
+      EXPECT_GT(clearance->lower, level - 0.021);
+    }
+  }
+  PathPoint at;
+  const Interval deepest = sweep.Deepest(motion, result.first.lag > 0.0, kInfinity, &at);
+  if (engine->has_depth()) {
+    const double sample = result.first.lag > 0.0 ? sampled.least : sampled.least_at_no_lag;
+    EXPECT_LT(deepest.upper, sample + 0.011);
+    EXPECT_LE(deepest.lower, sample + 1e-6);
+  }
+}
+
+std::shared_ptr<const MeshBody> RandomBody(motion::Random* random, int link,
+                                           const Eigen::Vector3d& near) {
+  machine::SceneBody body;
+  body.name = "body";
+  body.link = link;
+  const Eigen::Isometry3d X = random->Pose(20.0);
+  const Eigen::Vector3d half(random->Uniform(0.05, 60), random->Uniform(2, 60),
+                             random->Uniform(2, 60));
+  body.mesh = BoxMesh(-half, half);
+  for (Eigen::Vector3d& v : body.mesh.vertices) v = near + X.linear() * v;
+  return std::make_shared<const MeshBody>(body);
+}
+
+TEST(SweepPropertyTest, NothingIsMissed) {
+  motion::Random random(20240607);
+  Tally tool_tally;
+  Tally mesh_tally;
+  for (int i = 0; i < 240; ++i) {
+    const motion::TestMachine machine = kinematics::RandomMachine(&random);
+    const auto five_axis =
+        kinematics::FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
+    ASSERT_TRUE(five_axis.has_value());
+    const motion::PathKind kind = motion::kPathKinds[i % 5];
+    const auto frame = std::make_shared<motion::TcpFrame>(motion::TcpFrame{*five_axis, 120.0, 0.0});
+    const motion::Motion motion =
+        motion::RandomMotion(&random, kind, machine, frame, random.Uniform(0.02, 0.5));
+    machine::Tool tool;
+    tool.number = 1;
+    tool.length = 120.0;
+    tool.holder = PolyProfile({{0, 0}, {0, 6}, {40, 6}, {60, 20}, {120, 20}, {120, 0}});
+    const auto a =
+        std::make_shared<const ToolBody>(tool, machine::BodyKind::kHolder, machine.spindle_link);
+    // Somewhere about the middle of the way, as seen from the table.
+    const motion::JointVector q = motion.At(random.Uniform(0.0, 1.0));
+    const Eigen::Isometry3d X_BS = machine.tree.Pose(machine.table_link, q).inverse() *
+                                   machine.tree.Pose(machine.spindle_link, q);
+    const auto b =
+        RandomBody(&random, machine.table_link,
+                   X_BS * Eigen::Vector3d(random.Uniform(-90, 90), random.Uniform(-90, 90), 110.0));
+    const double level = random.Chance(0.3) ? -0.2 : 0.0;
+    {
+      const auto engine = MakeEngine(a, b);
+      const motion::PairPath path(machine.tree, a->extent, machine.table_link, &*five_axis);
+      Hold(motion, path, engine.get(), level, &tool_tally);
+    }
+    if (HasFatalFailure()) FAIL() << "tool, round " << i << " " << motion::ToString(kind);
+    if (i % 4 == 0) {
+      machine::SceneBody head;
+      head.name = "head";
+      head.link = machine.spindle_link;
+      head.mesh = BoxMesh({-30, -20, 0}, {30, 20, 110});
+      const auto mesh = std::make_shared<const MeshBody>(head);
+      const auto engine = MakeEngine(mesh, b);
+      const motion::PairPath path(machine.tree, mesh->extent, machine.table_link, &*five_axis);
+      Hold(motion, path, engine.get(), 0.0, &mesh_tally);
+    }
+    if (HasFatalFailure()) FAIL() << "mesh, round " << i << " " << motion::ToString(kind);
+  }
+  EXPECT_GT(tool_tally.contacts, 40);
+  EXPECT_GT(tool_tally.clear, 40);
+  EXPECT_GT(mesh_tally.contacts, 8);
+  EXPECT_GT(mesh_tally.clear, 8);
+}
+
+}  // namespace
+}  // namespace ncsim::collision
