@@ -20,7 +20,8 @@ class Check {
   virtual void Finish(std::vector<Finding>* findings) = 0;
 };
 
-/// travel-limit: an axis leaves its limits anywhere in a motion; one finding a run of blocks and axis, at the first point.
+/// travel-limit: an axis leaves its limits anywhere in a motion; one finding a run of blocks and
+/// axis, at the first point.
 std::unique_ptr<Check> TravelLimit(const machine::Machine& machine);
 /// rotary-wrap: see the design's definition (docs/findings.md).
 std::unique_ptr<Check> RotaryWrap(const machine::Machine& machine);
@@ -37,5 +38,8 @@ std::vector<std::unique_ptr<Check>> AllChecks(const machine::Machine& machine);
 /// NC axis letters and values (mm, deg) at q, for Finding::axes.
 std::vector<std::pair<char, double>> AxisReadout(const machine::Machine& machine,
                                                  const motion::JointVector& q);
+
+/// A feed or an arc: cutting motion, as distinct from rapids, dwells and tool changes.
+bool IsFeed(const motion::Motion& motion);
 
 }  // namespace ncsim::checks

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/app/check_command.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <thread>
+#include <vector>
+
+#include "sim/app/app.h"
+#include "sim/app/check_program.h"
+
+namespace ncsim::app {
+namespace {
+
+/// An internal error of one program must not take the others' results with it.
+ProgramOutcome CheckCatching(const CheckOptions& options, const std::string& program,
+                             bool progress) {
+  ProgramOutcome outcome;
+  try {
+    return CheckProgram(options, program, progress);
+  } catch (const std::exception& error) {
+    outcome.messages = program + ": internal error: " + error.what() + "\n";
+  } catch (...) {
+    outcome.messages = program + ": internal error\n";
+  }
+  outcome.exit_code = kExitInternalError;
+  return outcome;
+}
+
+std::vector<ProgramOutcome> CheckAll(const CheckOptions& options, bool progress) {
+  std::vector<ProgramOutcome> outcomes(options.programs.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](bool show) {
+    for (std::size_t i = next++; i < outcomes.size(); i = next++) {
+      outcomes[i] = CheckCatching(options, options.programs[i], show);
+    }
+  };
+  const std::size_t threads =
+      std::min(static_cast<std::size_t>(options.jobs), options.programs.size());
+  if (threads <= 1) {
+    work(progress);
+    return outcomes;
+  }
+  std::vector<std::jthread> pool;
+  for (std::size_t i = 0; i < threads; ++i) pool.emplace_back(work, false);
+  pool.clear();  // Joins.
+  return outcomes;
+}
+
+void WriteReports(const CheckOptions& options, const std::vector<ProgramOutcome>& outcomes,
+                  std::ostream& out) {
+  const bool array = options.format == Format::kJson && options.programs.size() > 1;
+  bool first = true;
+  if (array) out << "[\n";
+  for (const ProgramOutcome& outcome : outcomes) {
+    if (outcome.report.empty()) continue;
+    if (!first) out << (array ? ",\n" : "\n");
+    first = false;
+    out << outcome.report;
+  }
+  if (array) out << "]\n";
+}
+
+}  // namespace
+
+int Check(const CheckOptions& options, std::ostream& out, std::ostream& err) {
+  std::ofstream file;
+  if (!options.out.empty()) {
+    file.open(options.out, std::ios::binary | std::ios::trunc);
+    if (!file) {
+      err << options.out << ": error: cannot be written\n";
+      return kExitBadInput;
+    }
+  }
+  const bool progress = &err == &std::cerr && isatty(STDERR_FILENO) == 1;
+  const std::vector<ProgramOutcome> outcomes = CheckAll(options, progress);
+  std::vector<int> codes;
+  for (const ProgramOutcome& outcome : outcomes) {
+    err << outcome.messages;
+    codes.push_back(outcome.exit_code);
+  }
+  if (options.out.empty()) {
+    WriteReports(options, outcomes, out);
+    return CombinedExit(codes);
+  }
+  WriteReports(options, outcomes, file);
+  file.close();
+  for (const ProgramOutcome& outcome : outcomes) {
+    if (!outcome.summary.empty()) out << outcome.summary << "\n";
+  }
+  if (!file) {
+    err << options.out << ": error: could not be written to its end\n";
+    codes.push_back(kExitBadInput);
+  }
+  return CombinedExit(codes);
+}
+
+}  // namespace ncsim::app

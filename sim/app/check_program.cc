@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/app/check_program.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "sim/app/app.h"
+#include "sim/app/assumptions.h"
+#include "sim/app/finding_log.h"
+#include "sim/app/nominal.h"
+#include "sim/app/pipeline.h"
+#include "sim/app/program_dir.h"
+#include "sim/app/tool_source.h"
+#include "sim/base/text.h"
+#include "sim/machine/load.h"
+#include "sim/machine/scene.h"
+
+namespace ncsim::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Source lines for carets, of the program and of the subprogram files that it calls.
+class SourceLines {
+ public:
+  SourceLines(std::shared_ptr<const nc::Program> program, const SourceFiles& files)
+      : files_(&files) {
+    programs_[0] = std::move(program);
+  }
+  std::string_view operator()(int file, int line) {
+    auto found = programs_.find(file);
+    if (found == programs_.end()) {
+      Diagnostics ignored;  // The control has read the file and reported what is wrong with it.
+      found = programs_.emplace(file, nc::Program::Load(files_->name(file), &ignored)).first;
+    }
+    return found->second == nullptr ? "" : found->second->LineByNumber(line);
+  }
+
+ private:
+  const SourceFiles* files_;
+  std::map<int, std::shared_ptr<const nc::Program>> programs_;
+};
+
+class ProgramCheck {
+ public:
+  ProgramCheck(const CheckOptions& options, const std::string& program, bool progress)
+      : options_(options), name_(program), progress_(progress) {}
+
+  ProgramOutcome Run() {
+    outcome_.exit_code = kExitBadInput;
+    const bool loaded = LoadProgram() && LoadJob() && LoadMachine() && BuildScene() && OpenTrace();
+    AppendDiagnostics();
+    if (!loaded) return std::move(outcome_);
+    Simulate();
+    if (pipeline_->motions() == 0 && !log_.HasOtherThan(Rule::kSyntax, Severity::kError)) {
+      RejectMotionless();
+      return std::move(outcome_);
+    }
+    if (!CloseTrace()) return std::move(outcome_);
+    Judge();
+    Report();
+    return std::move(outcome_);
+  }
+
+ private:
+  void Complain(const std::string& message) { outcome_.messages += message + "\n"; }
+
+  void AppendDiagnostics() {
+    for (const Diagnostic& diagnostic : diagnostics_.all()) Complain(ToString(diagnostic));
+  }
+
+  bool LoadProgram() {
+    program_ = nc::Program::Load(name_, &diagnostics_);
+    return program_ != nullptr && !diagnostics_.has_errors();
+  }
+
+  /// The job named, else PROGRAM.job.toml: part.nc.job.toml or part.job.toml.
+  bool LoadJob() {
+    std::string path = options_.job;
+    if (path.empty()) {
+      const std::string appended = name_ + ".job.toml";
+      const std::string replaced = fs::path(name_).replace_extension(".job.toml").string();
+      std::error_code error;
+      const bool has_appended = fs::exists(appended, error);
+      const bool has_replaced = fs::exists(replaced, error);
+      if (has_appended && has_replaced && appended != replaced) {
+        Complain(name_ + ": error: both " + appended + " and " + replaced +
+                 " are there; name one of them with --job");
+        return false;
+      }
+      if (has_appended) path = appended;
+      if (has_replaced) path = replaced;
+    }
+    job_ = machine::LoadJob(path, &diagnostics_);
+    if (job_ && options_.clearance) job_->check.clearance = *options_.clearance;
+    return job_.has_value() && !diagnostics_.has_errors();
+  }
+
+  bool LoadMachine() {
+    std::string wanted = options_.model;
+    std::string path;
+    if (wanted.empty()) {
+      wanted = job_->model;
+      if (wanted.empty()) {
+        Complain(name_ +
+                 ": error: no machine is named: --model umc750.urdf, or model = "
+                 "\"umc750.urdf\" in the job");
+        return false;
+      }
+      const fs::path beside = fs::path(job_->path).parent_path() / wanted;
+      std::error_code error;
+      if (fs::is_regular_file(beside, error)) path = beside.string();
+    }
+    if (path.empty()) path = machine::FindModel(wanted, ProgramDir());
+    if (path.empty()) {
+      Complain(name_ + ": error: there is no model '" + wanted +
+               "': not a file, and not in $NCSIM_MODELS or among the models that ship");
+      return false;
+    }
+    machine_ = machine::LoadMachine(path, &diagnostics_);
+    return machine_.has_value() && !diagnostics_.has_errors();
+  }
+
+  bool BuildScene() {
+    tools_ = FindTools(*machine_, *job_, *program_);
+    scene_ = machine::BuildScene(*machine_, *job_, &diagnostics_);
+    return !diagnostics_.has_errors();
+  }
+
+  bool OpenTrace() {
+    if (options_.trace.empty()) return true;
+    trace_file_.open(options_.trace, std::ios::binary | std::ios::trunc);
+    if (!trace_file_) {
+      Complain(options_.trace + ": error: cannot be written");
+      return false;
+    }
+    trace_.emplace(*machine_, trace_file_);
+    return true;
+  }
+
+  bool CloseTrace() {
+    if (!trace_) return true;
+    trace_file_.close();
+    if (trace_file_) return true;
+    Complain(options_.trace + ": error: could not be written to its end");
+    return false;
+  }
+
+  void ShowProgress(SourcePosition where) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!progress_ || now - last_shown_ < std::chrono::milliseconds(200)) return;
+    last_shown_ = now;
+    std::cerr << "\r" << name_ << ": line " << where.line << "   " << std::flush;
+  }
+
+  void Simulate() {
+    if (!options_.interpret_only) {
+      checker_.emplace(*machine_, scene_, tools_, job_->check);
+    }
+    Pipeline::Parts parts;
+    parts.machine = &*machine_;
+    parts.tools = &tools_;
+    parts.files = &files_;
+    parts.part_frames = &part_frames_;
+    parts.trace = trace_ ? &*trace_ : nullptr;
+    parts.collision = checker_ ? &*checker_ : nullptr;
+    parts.log = &log_;
+    pipeline_.emplace(parts, [this](SourcePosition where) { ShowProgress(where); });
+    summary_ = control::RunProgram(program_, *machine_, *job_, tools_, &files_, &part_frames_,
+                                   &*pipeline_);
+    pipeline_->Finish();
+    if (progress_) std::cerr << "\r\033[K" << std::flush;
+  }
+
+  void RejectMotionless() {
+    SourceLines lines(program_, files_);
+    report::CheckResult result;
+    result.findings = log_.Take();
+    std::ostringstream text;
+    report::WriteFindings(result, files_, std::ref(lines), text);
+    outcome_.messages += text.str();
+    Complain(name_ + ": error: the program moves no axis: there is nothing to check");
+  }
+
+  void AddToolAssumptions() {
+    for (const int number : pipeline_->used_tools()) {
+      const machine::Tool* tool = tools_.Find(number);
+      if (tool == nullptr || tool->assumed.empty()) continue;
+      Assume({"tool T" + std::to_string(number), tool->assumed, true, false},
+             &summary_.assumptions);
+    }
+  }
+
+  void Judge() {
+    report::CheckResult& result = result_;
+    result.not_checked = {"stock"};
+    if (checker_) {
+      collision::CollisionResult bodies = checker_->Finish();
+      log_.Add(std::move(bodies.findings));
+      result.clearances = std::move(bodies.clearances);
+      result.cuts = std::move(bodies.cuts);
+    } else {
+      result.not_checked.emplace_back("collision");
+      log_.Add(MakeFinding(Rule::kUncertified, {},
+                           "the clearance of every pair of bodies: they were not checked "
+                           "(--interpret-only)"));
+    }
+    for (const std::string& what : summary_.not_checked) {
+      if (std::find(result.not_checked.begin(), result.not_checked.end(), what) ==
+          result.not_checked.end()) {
+        result.not_checked.push_back(what);
+      }
+    }
+    AddToolAssumptions();
+    for (Assumption& a : NominalShapes(*machine_, scene_, result.clearances)) {
+      Assume(std::move(a), &summary_.assumptions);
+    }
+    if (checker_) {
+      for (Assumption& a :
+           NominalToolChange(*machine_, scene_, tools_, pipeline_->tool_changes())) {
+        Assume(std::move(a), &summary_.assumptions);
+      }
+    }
+    for (const std::string& name : Accept(options_.assume, &summary_.assumptions)) {
+      Complain(name_ + ": warning: --assume '" + name + "': nothing of that name was assumed" +
+               DidYouMean(name, AssumptionNames()));
+    }
+    log_.Add(OpenAssumptions(summary_.assumptions, options_.strict));
+    if (!summary_.finished && !log_.Has(Severity::kError)) {
+      log_.Add(MakeFinding(Rule::kUncertified, {},
+                           "the program was not followed to its end: the rest was not checked"));
+    }
+    result.findings = log_.Take();
+    result.assumptions = summary_.assumptions;
+    result.verdict = ncsim::Judge(result.findings, result.assumptions, options_.strict);
+  }
+
+  std::vector<std::string> AssumptionNames() const {
+    std::vector<std::string> names;
+    for (const Assumption& assumption : summary_.assumptions) names.push_back(assumption.name);
+    return names;
+  }
+
+  void Report() {
+    result_.program = name_;
+    result_.model = machine_->name;
+    result_.job = job_->path;
+    result_.blocks = summary_.blocks;
+    result_.motion_time = summary_.motion_time;
+    std::ostringstream text;
+    if (options_.format == Format::kJson) {
+      report::WriteJson(result_, files_, text);
+    } else {
+      SourceLines lines(program_, files_);
+      report::WriteText(result_, files_, std::ref(lines), text);
+    }
+    outcome_.report = std::move(text).str();
+    outcome_.summary = name_ + ": " + report::Summary(result_);
+    outcome_.exit_code = result_.verdict == Verdict::kPass   ? kExitPass
+                         : result_.verdict == Verdict::kFail ? kExitFail
+                                                             : kExitUnproven;
+  }
+
+  const CheckOptions& options_;
+  const std::string name_;
+  const bool progress_;
+  ProgramOutcome outcome_;
+  Diagnostics diagnostics_;
+  std::shared_ptr<const nc::Program> program_;
+  std::optional<machine::Job> job_;
+  std::optional<machine::Machine> machine_;
+  machine::ToolTable tools_;
+  machine::Scene scene_;
+  std::ofstream trace_file_;
+  std::optional<report::TraceWriter> trace_;
+  std::optional<collision::CollisionChecker> checker_;
+  SourceFiles files_;
+  std::vector<control::PartFrame> part_frames_;
+  FindingLog log_;
+  std::optional<Pipeline> pipeline_;
+  control::RunSummary summary_;
+  report::CheckResult result_;
+  std::chrono::steady_clock::time_point last_shown_{};
+};
+
+}  // namespace
+
+ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
+                            bool progress) {
+  return ProgramCheck(options, program, progress).Run();
+}
+
+}  // namespace ncsim::app

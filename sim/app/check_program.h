@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One program, from text to verdict.
+#pragma once
+
+#include <string>
+
+#include "sim/app/options.h"
+
+namespace ncsim::app {
+
+struct ProgramOutcome {
+  int exit_code = 0;
+  std::string report;    ///< In the asked format; "" where there is none.
+  std::string summary;   ///< "part.nc: pass, ..."; "" where there is no report.
+  std::string messages;  ///< Trouble with the inputs, for standard error.
+};
+
+/// Checks one program. `progress` shows on standard error how far it is.
+ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program, bool progress);
+
+}  // namespace ncsim::app

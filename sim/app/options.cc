@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/app/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "sim/app/app.h"
+#include "sim/app/version.h"
+#include "sim/base/text.h"
+
+namespace ncsim::app {
+namespace {
+
+constexpr const char* kDescription =
+    "ncsim: will this NC program crash the machine? It reads the program as the control would, "
+    "drives\n"
+    "a model of the machine through it, and proves block by block that nothing overtravels, winds "
+    "up\n"
+    "or touches what it must not.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  ncsim check part.nc --model umc750.urdf           is part.nc safe? uses part.nc.job.toml if "
+    "it is there\n"
+    "  ncsim check part.nc --job vise.toml --clearance 2 warn where anything comes closer than 2 "
+    "mm\n"
+    "  ncsim inspect umc750.urdf                         what the model says, and what is wrong "
+    "with it\n"
+    "  ncsim explain rotary-wrap                         what a finding means and what to do about "
+    "it\n"
+    "\n"
+    "Exit code: 0 pass, 1 fail, 2 unproven (something was not simulated or is only assumed),\n"
+    "3 bad input or usage, 4 internal error.";
+
+/// Of the contract, but of later versions: refused by name, never accepted and ignored.
+const std::vector<std::string> kLaterCommands = {"post", "compare", "nightly"};
+const std::vector<std::string> kLaterOptions = {"--report", "--gltf", "--cache"};
+const std::vector<std::string> kLaterFormats = {"sarif", "junit", "github"};
+
+bool Contains(const std::vector<std::string>& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+std::vector<std::string> SplitNames(const std::vector<std::string>& arguments) {
+  std::vector<std::string> names;
+  for (const std::string& argument : arguments) {
+    for (std::string name : CLI::detail::split(argument, ',')) {
+      CLI::detail::trim(name);
+      if (!name.empty()) names.push_back(std::move(name));
+    }
+  }
+  return names;
+}
+
+/// The parser and what it fills.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.set_version_flag("--version", std::string("ncsim ") + kVersion);
+    app_.footer(kExamples);
+    app_.allow_extras();
+    AddCheck();
+    inspect_ = AddCommand("inspect", "print a machine model in words, and what its lint found");
+    inspect_->add_option("MODEL", command_.model, "the machine, as for check --model");
+    explain_ = AddCommand("explain", "what a rule means, what the machine would do, what to do");
+    explain_->add_option("RULE", command_.rule, "for example rotary-wrap; without it, all rules");
+  }
+
+  /// Throws CLI::ParseError. Returns a usage error in words, or "".
+  std::string Parse(std::vector<std::string> args) {
+    std::reverse(args.begin(), args.end());  // CLI11 takes them from the back.
+    app_.parse(std::move(args));
+    if (const std::string error = Leftover(); !error.empty()) return error;
+    if (check_->parsed()) return FinishCheck();
+    if (inspect_->parsed()) {
+      command_.kind = Command::Kind::kInspect;
+      return command_.model.empty() ? "inspect needs a model: ncsim inspect umc750.urdf" : "";
+    }
+    if (explain_->parsed()) {
+      command_.kind = Command::Kind::kExplain;
+      return "";
+    }
+    return "which command? check, inspect or explain (ncsim --help)";
+  }
+
+  const Command& command() const { return command_; }
+  std::string Help() const { return app_.help(); }
+
+ private:
+  CLI::App* AddCommand(const char* name, const char* description) {
+    CLI::App* command = app_.add_subcommand(name, description);
+    command->allow_extras();
+    return command;
+  }
+
+  void AddCheck() {
+    CheckOptions& o = command_.check;
+    check_ = AddCommand("check", "check NC programs: pass, fail or unproven, and why");
+    check_->footer(kExamples);
+    check_->add_option("PROGRAM", o.programs, "NC programs");
+    check_
+        ->add_option("--model", o.model,
+                     "the machine: a .urdf file, or its name in $NCSIM_MODELS or among the models "
+                     "that ship")
+        ->type_name("M.urdf");
+    check_
+        ->add_option(
+            "--job", o.job,
+            "what stands on the machine and in the control: offsets, tools, fixtures, part "
+            "(else PROGRAM.job.toml, if it exists)")
+        ->type_name("J.toml");
+    check_->add_option("--assume", assume_, "accept assumptions by name, or all of them")
+        ->type_name("all|NAME,...")
+        ->allow_extra_args(false);
+    check_->add_flag("--strict", o.strict, "any assumption that is not accepted makes unproven");
+    check_
+        ->add_option("--clearance", clearance_,
+                     "warn (near-miss) where two bodies come closer than this")
+        ->type_name("MM");
+    check_->add_option("--jobs", o.jobs, "programs to check at a time")->type_name("N");
+    check_->add_option("--format", format_, "text or json")->type_name("FORMAT");
+    check_->add_option("--out", o.out, "write the report to this file")->type_name("FILE");
+    check_
+        ->add_option("--trace", o.trace, "write a row at the end of each motion (one program only)")
+        ->type_name("T.csv");
+    check_->add_flag("--interpret-only", o.interpret_only,
+                     "leave out the collision checks; the verdict is unproven at best");
+    for (const std::string& name : kLaterOptions) {
+      check_->add_option(name, later_.emplace_back())->group("");
+    }
+  }
+
+  /// What the parser could not place, with a suggestion.
+  std::string Leftover() const {
+    const std::vector<std::string> extras = app_.remaining(true);
+    if (extras.empty()) return "";
+    const std::string& extra = extras.front();
+    const std::vector<CLI::App*> chosen = app_.get_subcommands();
+    std::vector<std::string> known;
+    if (extra.starts_with("-")) {
+      const std::string name = extra.substr(0, extra.find('='));
+      for (const CLI::Option* option : (chosen.empty() ? &app_ : chosen.front())->get_options()) {
+        for (const std::string& longer : option->get_lnames()) known.push_back("--" + longer);
+      }
+      return "unknown option '" + name + "'" + DidYouMean(name, known);
+    }
+    if (!chosen.empty()) return "unexpected argument '" + extra + "'";
+    for (const CLI::App* command : app_.get_subcommands(nullptr)) {
+      known.push_back(command->get_name());
+    }
+    return "unknown command '" + extra + "'" + DidYouMean(extra, known);
+  }
+
+  std::string FinishCheck() {
+    command_.kind = Command::Kind::kCheck;
+    CheckOptions& o = command_.check;
+    for (const std::string& name : kLaterOptions) {
+      if (check_->count(name) > 0) return "'" + name + "' is not in this version of ncsim";
+    }
+    if (Contains(kLaterFormats, format_)) {
+      return "--format " + format_ + " is not in this version of ncsim; there are text and json";
+    }
+    if (format_ != "text" && format_ != "json") {
+      return "unknown format '" + format_ + "'" + DidYouMean(format_, {"text", "json"}) +
+             "; there are text and json";
+    }
+    o.format = format_ == "json" ? Format::kJson : Format::kText;
+    o.assume = SplitNames(assume_);
+    if (check_->count("--assume") > 0 && o.assume.empty()) return "--assume needs a name, or all";
+    if (check_->count("--clearance") > 0) {
+      if (!(clearance_ >= 0.0) || !std::isfinite(clearance_)) {
+        return "--clearance takes a distance in mm that is not negative";
+      }
+      o.clearance = clearance_;
+    }
+    if (o.jobs < 1) return "--jobs takes a number from 1";
+    if (o.programs.empty()) return "check needs a program: ncsim check part.nc --model umc750.urdf";
+    if (!o.trace.empty() && o.programs.size() > 1) return "--trace takes one program";
+    return "";
+  }
+
+  CLI::App app_{kDescription, "ncsim"};
+  CLI::App* check_ = nullptr;
+  CLI::App* inspect_ = nullptr;
+  CLI::App* explain_ = nullptr;
+  Command command_;
+  std::vector<std::string> assume_;
+  double clearance_ = 0.0;
+  std::string format_ = "text";
+  std::deque<std::string> later_;  // A deque: the parser keeps references.
+};
+
+Command UsageError(const std::string& message, std::ostream& err) {
+  err << "ncsim: " << message << "\n";
+  Command command;
+  command.exit_code = kExitBadInput;
+  return command;
+}
+
+}  // namespace
+
+Command ParseCommandLine(std::vector<std::string> args, std::ostream& out, std::ostream& err) {
+  if (!args.empty() && Contains(kLaterCommands, args.front())) {
+    return UsageError("'" + args.front() + "' is not in this version of ncsim", err);
+  }
+  CommandLine line;
+  try {
+    const std::string error = line.Parse(std::move(args));
+    return error.empty() ? line.command() : UsageError(error, err);
+  } catch (const CLI::CallForVersion& version) {
+    out << version.what() << "\n";
+  } catch (const CLI::CallForHelp&) {
+    out << line.Help();
+  } catch (const CLI::ParseError& error) {
+    return UsageError(error.what(), err);
+  }
+  return Command();
+}
+
+}  // namespace ncsim::app

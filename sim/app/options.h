@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line, read. CLI11 stays behind this header.
+#pragma once
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace ncsim::app {
+
+enum class Format { kText, kJson };
+
+struct CheckOptions {
+  std::vector<std::string> programs;
+  std::string model;                ///< "" where the job says.
+  std::string job;                  ///< "" for the program's own, if it exists.
+  std::vector<std::string> assume;  ///< Names, or "all".
+  bool strict = false;
+  std::optional<double> clearance;  ///< mm; overrides the job's.
+  int jobs = 1;                     ///< Programs at a time.
+  Format format = Format::kText;
+  std::string out;    ///< Report file; "" for standard output.
+  std::string trace;  ///< "" for none.
+  bool interpret_only = false;
+};
+
+struct Command {
+  enum class Kind { kCheck, kInspect, kExplain, kDone };
+  Kind kind = Kind::kDone;
+  int exit_code = 0;  ///< kDone: help or a usage error has been written.
+  CheckOptions check;
+  std::string model;  ///< kInspect.
+  std::string rule;   ///< kExplain; "" for all.
+};
+
+/// Reads `args` (without the program's name). Help and version go to `out`, usage errors to `err`.
+Command ParseCommandLine(std::vector<std::string> args, std::ostream& out, std::ostream& err);
+
+}  // namespace ncsim::app

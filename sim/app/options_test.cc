@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/app/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "sim/app/app.h"
+
+namespace ncsim::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class OptionsTest : public ::testing::Test {
+ protected:
+  Command Parse(std::vector<std::string> args) {
+    return ParseCommandLine(std::move(args), out_, err_);
+  }
+  /// The message of a usage error.
+  std::string Error(std::vector<std::string> args) {
+    err_.str("");
+    const Command command = Parse(std::move(args));
+    EXPECT_EQ(command.kind, Command::Kind::kDone);
+    EXPECT_EQ(command.exit_code, kExitBadInput);
+    return err_.str();
+  }
+  std::ostringstream out_, err_;
+};
+
+TEST_F(OptionsTest, EverythingThatCheckTakes) {
+  const Command command = Parse({"check",
+                                 "a.nc",
+                                 "--model",
+                                 "umc750.urdf",
+                                 "--job=j.toml",
+                                 "--assume",
+                                 "offset G54,tool T3",
+                                 "--assume",
+                                 "all",
+                                 "--strict",
+                                 "--clearance",
+                                 "2.5",
+                                 "--jobs",
+                                 "4",
+                                 "--format",
+                                 "json",
+                                 "--out",
+                                 "r.json",
+                                 "--interpret-only",
+                                 "b.nc"});
+  ASSERT_EQ(command.kind, Command::Kind::kCheck) << err_.str();
+  const CheckOptions& check = command.check;
+  EXPECT_THAT(check.programs, ElementsAre("a.nc", "b.nc"));
+  EXPECT_EQ(check.model, "umc750.urdf");
+  EXPECT_EQ(check.job, "j.toml");
+  EXPECT_THAT(check.assume, ElementsAre("offset G54", "tool T3", "all"));
+  EXPECT_TRUE(check.strict);
+  EXPECT_EQ(check.clearance, 2.5);
+  EXPECT_EQ(check.jobs, 4);
+  EXPECT_EQ(check.format, Format::kJson);
+  EXPECT_EQ(check.out, "r.json");
+  EXPECT_TRUE(check.interpret_only);
+}
+
+TEST_F(OptionsTest, DefaultsLeaveTheJobItsClearance) {
+  const Command command = Parse({"check", "a.nc"});
+  ASSERT_EQ(command.kind, Command::Kind::kCheck) << err_.str();
+  EXPECT_FALSE(command.check.clearance.has_value());
+  EXPECT_EQ(command.check.format, Format::kText);
+  EXPECT_EQ(command.check.jobs, 1);
+}
+
+TEST_F(OptionsTest, MistypedNamesGetASuggestion) {
+  EXPECT_EQ(Error({"check", "a.nc", "--modle", "x.urdf"}),
+            "ncsim: unknown option '--modle' (did you mean '--model'?)\n");
+  EXPECT_EQ(Error({"chekc", "a.nc"}), "ncsim: unknown command 'chekc' (did you mean 'check'?)\n");
+  EXPECT_EQ(Error({"check", "a.nc", "--format", "jsno"}),
+            "ncsim: unknown format 'jsno' (did you mean 'json'?); there are text and json\n");
+  EXPECT_EQ(Error({"check", "a.nc", "--zzzzzzzzzz"}), "ncsim: unknown option '--zzzzzzzzzz'\n");
+  EXPECT_EQ(Error({"inspect", "a.urdf", "b.urdf"}), "ncsim: unexpected argument 'b.urdf'\n");
+}
+
+TEST_F(OptionsTest, LaterCommandsAndOptionsAreRefusedByName) {
+  EXPECT_EQ(Error({"post", "a.cls"}), "ncsim: 'post' is not in this version of ncsim\n");
+  EXPECT_EQ(Error({"compare", "a", "b"}), "ncsim: 'compare' is not in this version of ncsim\n");
+  EXPECT_EQ(Error({"nightly", "d", "--all"}), "ncsim: 'nightly' is not in this version of ncsim\n");
+  EXPECT_EQ(Error({"check", "a.nc", "--report", "r.html"}),
+            "ncsim: '--report' is not in this version of ncsim\n");
+  EXPECT_EQ(Error({"check", "a.nc", "--gltf", "g"}),
+            "ncsim: '--gltf' is not in this version of ncsim\n");
+  EXPECT_EQ(Error({"check", "a.nc", "--cache", "d"}),
+            "ncsim: '--cache' is not in this version of ncsim\n");
+  EXPECT_EQ(Error({"check", "a.nc", "--format", "sarif"}),
+            "ncsim: --format sarif is not in this version of ncsim; there are text and json\n");
+}
+
+TEST_F(OptionsTest, BadUsage) {
+  EXPECT_THAT(Error({}), HasSubstr("which command?"));
+  EXPECT_THAT(Error({"check"}), HasSubstr("check needs a program"));
+  EXPECT_THAT(Error({"inspect"}), HasSubstr("inspect needs a model"));
+  EXPECT_THAT(Error({"check", "a.nc", "b.nc", "--trace", "t.csv"}), HasSubstr("--trace takes one"));
+  EXPECT_THAT(Error({"check", "a.nc", "--jobs", "0"}), HasSubstr("--jobs takes a number from 1"));
+  EXPECT_THAT(Error({"check", "a.nc", "--jobs", "two"}), HasSubstr("--jobs"));
+  EXPECT_THAT(Error({"check", "a.nc", "--clearance=-1"}), HasSubstr("--clearance takes"));
+  EXPECT_THAT(Error({"check", "a.nc", "--clearance", "nan"}), HasSubstr("--clearance takes"));
+  EXPECT_THAT(Error({"check", "a.nc", "--assume", ","}), HasSubstr("--assume needs a name"));
+  EXPECT_THAT(Error({"check", "a.nc", "--model"}), HasSubstr("--model"));
+}
+
+TEST_F(OptionsTest, HelpAndVersionGoToStandardOutput) {
+  EXPECT_EQ(Parse({"--help"}).exit_code, kExitPass);
+  EXPECT_THAT(out_.str(), HasSubstr("ncsim explain rotary-wrap"));
+  EXPECT_THAT(out_.str(), HasSubstr("Exit code: 0 pass, 1 fail"));
+  out_.str("");
+  EXPECT_EQ(Parse({"check", "--help"}).exit_code, kExitPass);
+  EXPECT_THAT(out_.str(), HasSubstr("--assume all|NAME,..."));
+  EXPECT_THAT(out_.str(), ::testing::Not(HasSubstr("--gltf")));
+  out_.str("");
+  EXPECT_EQ(Parse({"--version"}).exit_code, kExitPass);
+  EXPECT_THAT(out_.str(), ::testing::StartsWith("ncsim "));
+  EXPECT_EQ(err_.str(), "");
+}
+
+TEST(CombinedExitTest, FirstPresentOf43120) {
+  EXPECT_EQ(CombinedExit({0, 2, 1, 3, 4}), 4);
+  EXPECT_EQ(CombinedExit({0, 2, 1, 3}), 3);
+  EXPECT_EQ(CombinedExit({0, 2, 1}), 1);
+  EXPECT_EQ(CombinedExit({0, 2}), 2);
+  EXPECT_EQ(CombinedExit({0, 0}), 0);
+}
+
+}  // namespace
+}  // namespace ncsim::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/app/pipeline.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ncsim::app {
+
+Pipeline::Pipeline(Parts parts, std::function<void(SourcePosition)> on_window)
+    : parts_(parts), on_window_(std::move(on_window)), checks_(checks::AllChecks(*parts.machine)) {
+  window_.motions.reserve(motion::kWindowSize);
+}
+
+double Pipeline::ToolLength(int number) const {
+  const machine::Tool* tool = parts_.tools->Find(number);
+  return tool == nullptr ? 0.0 : tool->length;
+}
+
+void Pipeline::OnMotion(const motion::Motion& motion) {
+  ++motions_;
+  const int tool = motion.facts.tool;
+  const bool full = window_.motions.size() >= motion::kWindowSize;
+  const bool other_tool = !window_.motions.empty() && window_.motions.back().facts.tool != tool;
+  if (full || other_tool) Flush();
+  if (tool > 0 && std::find(used_tools_.begin(), used_tools_.end(), tool) == used_tools_.end()) {
+    used_tools_.push_back(tool);
+  }
+  if (parts_.trace != nullptr) {
+    const auto& frame = parts_.part_frames->at(static_cast<std::size_t>(motion.facts.offset));
+    parts_.trace->Write(motion, frame.X_BP, ToolLength(tool), *parts_.files);
+  }
+  for (const std::unique_ptr<checks::Check>& check : checks_) check->OnMotion(motion, &found_);
+  if (!found_.empty()) parts_.log->Add(std::exchange(found_, {}));
+  tool_changes_.OnMotion(motion);
+  window_.motions.push_back(motion);
+}
+
+void Pipeline::Flush() {
+  if (window_.motions.empty()) return;
+  if (parts_.collision != nullptr) parts_.collision->Check(window_);
+  if (on_window_) on_window_(window_.motions.back().where);
+  window_.motions.clear();
+}
+
+void Pipeline::Finish() {
+  Flush();
+  for (const std::unique_ptr<checks::Check>& check : checks_) check->Finish(&found_);
+  parts_.log->Add(std::exchange(found_, {}));
+}
+
+}  // namespace ncsim::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "sim/base/text.h"
+#include "sim/base/units.h"
+#include "sim/checks/check.h"
+#include "sim/checks/run_finding.h"
+
+namespace ncsim::checks {
+namespace {
+
+/// rad, a millionth of a degree: far below the resolution of any control.
+constexpr double kMoves = 2e-8;
+
+class RotaryUnderTcpCheck : public Check {
+ public:
+  explicit RotaryUnderTcpCheck(const machine::Machine& machine) : machine_(&machine) {}
+
+  void OnMotion(const motion::Motion& motion, std::vector<Finding>*) override {
+    if (motion.kind != motion::MotionKind::kRapid || !motion.facts.tcp) return;
+    for (const machine::Axis& axis : machine_->axes) {
+      if (!axis.rotary) continue;
+      const double turn = motion.q1()[axis.joint] - motion.q0()[axis.joint];
+      if (std::abs(turn) <= kMoves) continue;
+      if (!run_.open()) {
+        run_.Start(FindingAt(*machine_, Rule::kRotaryUnderTcp, motion, 0.0,
+                             std::string("a rapid turns axis ") + axis.letter + " by " +
+                                 Fixed(Degrees(turn), 3) +
+                                 " deg while TCP is active: the tip does not hold its point on "
+                                 "the way"));
+      }
+      run_.Add(motion);
+      return;
+    }
+  }
+
+  /// One finding for the whole program: the habit is the fault, not the block.
+  void Finish(std::vector<Finding>* findings) override { run_.Close(findings); }
+
+ private:
+  const machine::Machine* machine_;
+  RunFinding run_;
+};
+
+}  // namespace
+
+std::unique_ptr<Check> RotaryUnderTcp(const machine::Machine& machine) {
+  return std::make_unique<RotaryUnderTcpCheck>(machine);
+}
+
+}  // namespace ncsim::checks

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/report/result.h"
+
+namespace ncsim::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Rounded to `decimals`; null for what is not a finite number; never -0.
+Json Number(double value, int decimals) {
+  if (!std::isfinite(value)) return nullptr;
+  const double scale = std::pow(10.0, decimals);
+  const double scaled = std::round(value * scale);
+  return std::isfinite(scaled) ? scaled / scale + 0.0 : value;
+}
+
+/// A proven clearance is rounded down: it must stay true.
+Json RoundedDown(double value_mm) {
+  if (!std::isfinite(value_mm)) return nullptr;
+  return std::floor(value_mm * 100.0 + 1e-9) / 100.0 + 0.0;
+}
+
+Json ToJson(const Finding& finding, const SourceFiles& files) {
+  Json json;
+  json["rule"] = Info(finding.rule).id;
+  json["severity"] = ToString(finding.severity);
+  json["file"] = files.name(finding.where.file);
+  json["line"] = finding.where.line;
+  json["column"] = finding.where.column;
+  json["message"] = finding.message;
+  if (!finding.bodies.empty()) {
+    json["bodies"] = finding.bodies;
+    json["clearance_mm"] = finding.clearance_mm ? Number(*finding.clearance_mm, 2) : Json(nullptr);
+  }
+  if (!finding.axes.empty()) {
+    Json& axes = json["axes"] = Json::object();
+    for (const auto& [letter, value] : finding.axes)
+      axes[std::string(1, letter)] = Number(value, 4);
+  }
+  if (finding.time_s) json["time_s"] = Number(*finding.time_s, 3);
+  return json;
+}
+
+Json ToJson(const collision::PairClearance& clearance, const SourceFiles& files) {
+  return {{"bodies", clearance.bodies},
+          {"proven_mm", RoundedDown(clearance.proven_mm)},
+          {"seen_mm", Number(clearance.seen_mm, 2)},
+          {"line", clearance.where.line},
+          {"file", files.name(clearance.where.file)}};
+}
+
+Json ToJson(const collision::DeepestCut& cut, const SourceFiles& files) {
+  return {{"tool", cut.tool},
+          {"depth_mm", Number(cut.depth_mm, 3)},
+          {"line", cut.where.line},
+          {"file", files.name(cut.where.file)}};
+}
+
+Json ToJson(const Assumption& assumption) {
+  return {{"name", assumption.name},
+          {"text", assumption.text},
+          {"places_metal", assumption.places_metal},
+          {"accepted", assumption.accepted}};
+}
+
+template <typename Items, typename Convert>
+Json Array(const Items& items, const Convert& convert) {
+  Json array = Json::array();
+  for (const auto& item : items) array.push_back(convert(item));
+  return array;
+}
+
+}  // namespace
+
+void WriteJson(const CheckResult& result, const SourceFiles& files, std::ostream& out) {
+  const auto located = [&](const auto& item) { return ToJson(item, files); };
+  Json json;
+  json["schema"] = 1;
+  json["verdict"] = ToString(result.verdict);
+  json["program"] = result.program;
+  json["model"] = result.model;
+  json["blocks"] = result.blocks;
+  json["motion_time_s"] = Number(result.motion_time, 1);
+  json["findings"] = Array(result.findings, located);
+  json["clearances"] = Array(result.clearances, located);
+  json["assumptions"] = Array(result.assumptions, [](const Assumption& a) { return ToJson(a); });
+  json["not_checked"] = result.not_checked;
+  json["cuts"] = Array(result.cuts, located);
+  json["job"] = result.job.empty() ? Json(nullptr) : Json(result.job);
+  json["motion_time_model"] = MotionTimeModel();
+  // Bytes that are not UTF-8 (names of files, comments in messages) become U+FFFD.
+  out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace ncsim::report

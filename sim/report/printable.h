@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text of unknown origin on a terminal: programs carry comments in any encoding, and may be
+// hostile.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace ncsim::report {
+
+/// `text` with everything that is neither printable nor valid UTF-8 (control characters, escape
+/// sequences, stray bytes) as
+/// '?'. Tabs stay.
+std::string Printable(std::string_view text);
+
+/// A source line cut to a window of at most `width` characters around `column` (from 1, in bytes),
+/// with "..." where it was cut, and a second line with a caret under the column. Both are indented
+/// by two blanks and end with a line end.
+std::string LineWithCaret(std::string_view line, int column, std::size_t width = 100);
+
+}  // namespace ncsim::report

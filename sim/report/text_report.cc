@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "sim/base/text.h"
+#include "sim/report/printable.h"
+#include "sim/report/result.h"
+
+namespace ncsim::report {
+namespace {
+
+/// Pairs whose clearance is printed, nearest first.
+constexpr std::size_t kMaxPairs = 10;
+
+std::string Position(const SourcePosition& where, const SourceFiles& files) {
+  std::string text = files.name(where.file);
+  if (where.line > 0) text += ":" + std::to_string(where.line);
+  if (where.line > 0 && where.column > 0) text += ":" + std::to_string(where.column);
+  return text;
+}
+
+void WriteFinding(const Finding& finding, const SourceFiles& files, const LineText& line_text,
+                  std::ostream& out) {
+  out << Printable(Position(finding.where, files) + ": " + std::string(ToString(finding.severity)) +
+                   ": " + finding.message)
+      << " [" << Info(finding.rule).id << "]\n";
+  if (finding.where.line <= 0) return;
+  const std::string_view line = line_text(finding.where.file, finding.where.line);
+  if (!line.empty()) out << LineWithCaret(line, finding.where.column);
+}
+
+std::string PairName(const collision::PairClearance& clearance) {
+  std::string text;
+  for (const std::string& body : clearance.bodies) text += (text.empty() ? "" : " and ") + body;
+  return text;
+}
+
+/// "1.83 mm" rounded down, so that "never less than" stays true; "not proven" for what is not a
+/// number.
+std::string ClearanceText(double value_mm) {
+  if (std::isnan(value_mm)) return "not proven";
+  if (std::isinf(value_mm)) return "out of reach";
+  return Fixed(std::floor(value_mm * 100.0 + 1e-9) / 100.0, 2) + " mm";
+}
+
+/// Nearest first; a pair without a number counts as nearest.
+std::vector<collision::PairClearance> ByClearance(const CheckResult& result) {
+  std::vector<collision::PairClearance> sorted = result.clearances;
+  const auto key = [](const collision::PairClearance& c) {
+    return std::isnan(c.proven_mm) ? -HUGE_VAL : c.proven_mm;
+  };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  return sorted;
+}
+
+void WriteClearances(const CheckResult& result, std::ostream& out) {
+  if (result.clearances.empty()) return;
+  const std::vector<collision::PairClearance> sorted = ByClearance(result);
+  out << "least clearance of each pair, nearest first:\n";
+  for (std::size_t i = 0; i < std::min(kMaxPairs, sorted.size()); ++i) {
+    const collision::PairClearance& clearance = sorted[i];
+    out << "  " << Printable(PairName(clearance)) << ": never less than "
+        << ClearanceText(clearance.proven_mm);
+    if (std::isfinite(clearance.seen_mm)) {
+      out << ", seen " << ClearanceText(clearance.seen_mm);
+      if (clearance.where.line > 0) out << " at line " << clearance.where.line;
+    }
+    out << "\n";
+  }
+  if (sorted.size() > kMaxPairs) {
+    out << "  ... and " << sorted.size() - kMaxPairs
+        << " pairs that stay further apart; --format json lists them all\n";
+  }
+}
+
+void WriteCuts(const CheckResult& result, std::ostream& out) {
+  for (const collision::DeepestCut& cut : result.cuts) {
+    out << "deepest cut of T" << cut.tool << " into the finished part: " << Fixed(cut.depth_mm, 3)
+        << " mm at line " << cut.where.line << "\n";
+  }
+}
+
+void WriteAssumptions(const CheckResult& result, std::ostream& out) {
+  if (result.assumptions.empty()) return;
+  out << "assumed, because neither the job nor the command line says:\n";
+  for (const Assumption& assumption : result.assumptions) {
+    out << "  " << Printable(assumption.name + ": " + assumption.text)
+        << (assumption.accepted       ? " (accepted)"
+            : assumption.places_metal ? " (keeps the verdict from being pass)"
+                                      : "")
+        << "\n";
+  }
+}
+
+std::string Duration(double seconds) {
+  if (!std::isfinite(seconds)) return "an unknown time";
+  if (seconds < 60.0) return Fixed(seconds, 1) + " s";
+  const double whole = std::round(seconds);
+  const double hours = std::floor(whole / 3600.0);
+  const double minutes = std::floor((whole - 3600.0 * hours) / 60.0);
+  std::string text = hours > 0.0 ? Fixed(hours, 0) + " h " : "";
+  return text + Fixed(minutes, 0) + " min " + Fixed(whole - 3600.0 * hours - 60.0 * minutes, 0) +
+         " s";
+}
+
+std::string Count(std::size_t number, const std::string& singular) {
+  return std::to_string(number) + " " + singular + (number == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string_view MotionTimeModel() {
+  return "rapids by trapezoid at the axes' rates and accelerations; feeds at the programmed feed, "
+         "slowed to the slowest axis, stopping only where the control stops; no time for tool "
+         "changes and spindle";
+}
+
+void SortFindings(std::vector<Finding>* findings) {
+  const auto key = [](const Finding& f) {
+    return std::tie(f.where.file, f.where.line, f.where.column, f.rule, f.message);
+  };
+  std::stable_sort(findings->begin(), findings->end(),
+                   [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
+}
+
+std::string Summary(const CheckResult& result) {
+  std::string text(ToString(result.verdict));
+  for (const std::string& what : result.not_checked) {
+    text += ", " + what + (what == "stock" ? " not simulated" : " not checked");
+  }
+  std::map<Severity, std::size_t> count;
+  for (const Finding& finding : result.findings) ++count[finding.severity];
+  text += ": " + Count(count[Severity::kError], "error") + ", " +
+          std::to_string(count[Severity::kUnproven]) + " unproven, " +
+          Count(count[Severity::kWarning], "warning") + "; " + Count(result.blocks, "block") +
+          ", " + Duration(result.motion_time) + " of machine time";
+  if (!result.clearances.empty()) {
+    const collision::PairClearance nearest = ByClearance(result).front();
+    text +=
+        ", least clearance " + ClearanceText(nearest.proven_mm) + " (" + PairName(nearest) + ")";
+  }
+  return Printable(text);
+}
+
+void WriteFindings(const CheckResult& result, const SourceFiles& files, const LineText& line_text,
+                   std::ostream& out) {
+  std::map<std::pair<Rule, Severity>, int> count;
+  for (const Finding& finding : result.findings) {
+    if (++count[{finding.rule, finding.severity}] <= kMaxFindingsOfRule) {
+      WriteFinding(finding, files, line_text, out);
+    }
+  }
+  for (const auto& [key, number] : count) {
+    if (number <= kMaxFindingsOfRule) continue;
+    out << "... and " << number - kMaxFindingsOfRule << " more of severity " << ToString(key.second)
+        << " [" << Info(key.first).id << "]; --format json lists them all\n";
+  }
+}
+
+void WriteText(const CheckResult& result, const SourceFiles& files, const LineText& line_text,
+               std::ostream& out) {
+  WriteFindings(result, files, line_text, out);
+  WriteCuts(result, out);
+  WriteClearances(result, out);
+  WriteAssumptions(result, out);
+  out << "machine time: " << MotionTimeModel() << "\n";
+  out << Summary(result) << "\n";
+}
+
+}  // namespace ncsim::report
