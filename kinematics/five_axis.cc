@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "kinematics/chain.h"
 
@@ -161,32 +160,6 @@ std::array<double, 2> FiveAxis::RadiiAboutTip(const Eigen::Vector3d& v_S,
     v = Turn(axes_[k].direction, q[rotary_[k]], v);
   }
   return radii;
-}
-
-/// With d for "control minus metal", tip_control - tip_metal = const + R2 (dc1 - dc2) + R2 R1 (dp0
-/// - dc1), where R1, c1 belong to axes_[0] and R2, c2 to axes_[1]: R1 turns the last term alone, R2
-/// both.
-double FiveAxis::CentreError(const FiveAxis& metal, const FiveAxis& control) {
-  constexpr double kDifferent = std::numeric_limits<double>::infinity();
-  if (metal.linear_ != control.linear_ || metal.rotary_ != control.rotary_ ||
-      metal.rotaries_before_linear_ != control.rotaries_before_linear_ ||
-      !metal.directions_.isApprox(control.directions_, kParallel) ||
-      !metal.X_BS0_.linear().isApprox(control.X_BS0_.linear(), kParallel)) {
-    return kDifferent;
-  }
-  Eigen::Vector3d shift = control.X_BS0_.translation() - metal.X_BS0_.translation();
-  double error = 0.0;
-  for (std::size_t k = 0; k < metal.rotary_.size(); ++k) {
-    const RotaryAxis& axis = metal.axes_[k];
-    if (!axis.direction.isApprox(control.axes_[k].direction, kParallel)) return kDifferent;
-    // A point of an axis may slide along it: what is left of the difference is what the joint
-    // turns.
-    Eigen::Vector3d turned = shift - (control.axes_[k].point - axis.point);
-    turned -= axis.direction.dot(turned) * axis.direction;
-    error += turned.norm();
-    shift -= turned;
-  }
-  return error;
 }
 
 }  // namespace ncsim::kinematics

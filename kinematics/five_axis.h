@@ -72,12 +72,6 @@ class FiveAxis {
   /// of them by more than d.
   bool linear_square() const { return linear_square_; }
 
-  /// For a control that believes `control` while the metal is `metal`: an e (mm) such that, with
-  /// the same joint values, the tip's place in B as the one sees it moves against the other's by at
-  /// most e * (sum of the rotary joints' changes, rad). Infinite when they differ in more than the
-  /// places of axes (directions, order, joint indices).
-  static double CentreError(const FiveAxis& metal, const FiveAxis& control);
-
  private:
   /// A rotary joint at q = 0, in frame B.
   struct RotaryAxis {

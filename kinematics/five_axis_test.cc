@@ -4,11 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "kinematics/chain.h"
-#include "kinematics/relative_bound.h"
 #include "kinematics/test_machines.h"
 
 namespace ncsim::kinematics {
@@ -341,50 +338,6 @@ TEST(FiveAxisTest, LinearGainIsOneForSquareAxes) {
   const FiveAxis skewed = MakeFiveAxis(RandomMachine(&random, {false, true}));
   EXPECT_FALSE(skewed.linear_square());
   EXPECT_GT(skewed.linear_gain().maxCoeff(), 1.0);
-}
-
-// A control whose rotary centre is wrong by e (settings 255-257) sees a table point where the metal
-// has it not.
-TEST(FiveAxisTest, CentreErrorBoundsWhatTheTwoTipsDoAgainstEachOther) {
-  Random random(10);
-  double least_slack = 1.0;
-  for (int i = 0; i < 500; ++i) {
-    const Eigen::Vector3d pivot_b = random.InBox(300.0);
-    const Eigen::Vector3d pivot_c = random.InBox(300.0);
-    const Eigen::Vector3d e = random.InBox(2.0);
-    const Eigen::Vector3d e_c = random.Chance(0.5) ? e : random.InBox(2.0);
-    const FiveAxis metal = MakeFiveAxis(TrunnionBC(pivot_b, pivot_c));
-    const FiveAxis control = MakeFiveAxis(TrunnionBC(pivot_b + e, pivot_c + e_c));
-    const double error = FiveAxis::CentreError(metal, control);
-    EXPECT_NEAR(FiveAxis::CentreError(control, metal), error, 1e-12);
-    const auto difference = [&](const JointVector& q) -> Eigen::Vector3d {
-      return control.SpindleInTable(q).translation() - metal.SpindleInTable(q).translation();
-    };
-    for (int sample = 0; sample < 50; ++sample) {
-      JointVector q0 = RandomPosition(&random, TrunnionBC(pivot_b, pivot_c).tree);
-      JointVector q1 = q0;
-      const double scale = std::pow(10.0, random.Uniform(-3.0, 0.0));
-      const double db = scale * random.Uniform(-1, 1);
-      const double dc = scale * random.Uniform(-1, 1);
-      q1[3] += db;
-      q1[4] += dc;
-      const double moved = (difference(q1) - difference(q0)).norm();
-      const double bound = error * (Chord(std::abs(db)) + Chord(std::abs(dc)));
-      EXPECT_LE(moved, bound + 1e-10);
-      least_slack = std::min(least_slack, 1.0 - moved / bound);
-    }
-  }
-  EXPECT_LT(least_slack, 0.1);  // it is reached
-}
-
-TEST(FiveAxisTest, CentreErrorIsZeroForTheSameAndInfiniteForAnotherMachine) {
-  const FiveAxis metal = MakeFiveAxis(TrunnionBC({1, 2, 3}, {1, 2, -50}));
-  EXPECT_EQ(FiveAxis::CentreError(metal, metal), 0.0);
-  // A pivot moved along its own axis is the same axis.
-  EXPECT_NEAR(FiveAxis::CentreError(metal, MakeFiveAxis(TrunnionBC({1, 9, 3}, {1, 2, 70}))), 0.0,
-              1e-12);
-  EXPECT_EQ(FiveAxis::CentreError(metal, MakeFiveAxis(TrunnionBC({1, 2, 3}, {1, 2, -50}, 1.0))),
-            std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -37,9 +37,9 @@ void Contour::Flush() {
   state_->comp.Flush();
 }
 
-void Contour::Stop(const SourcePosition& where) {
+void Contour::Stop(const SourcePosition& where, bool commanded) {
   Flush();
-  state_->comp.Stop(where);
+  if (commanded) state_->comp.AlarmAtStop(where);
 }
 
 AxisValues Contour::position() const { return state_->comp.position(); }

@@ -35,10 +35,11 @@ class Contour {
   /// Sends on all that waits (macro read of a position, tool change, frame change). A compensated
   /// path cannot be joined over it: `unsupported-code` where that matters.
   void Flush();
-  /// M00, M01, M02 or M30 at `where`: Flush, and a control-alarm if compensation is active.
-  void Stop(const SourcePosition& where);
-  /// Where the tool is, in program coordinates, after what has been sent on: beside the programmed
-  /// position while compensation is active.
+  /// M00, M01, M02 or M30 at `where`: Flush, and a control-alarm if compensation is still
+  /// `commanded` (G41 or G42 in force).
+  void Stop(const SourcePosition& where, bool commanded);
+  /// Where the tool is after Flush(), in program coordinates: beside the programmed position while
+  /// compensation is active.
   AxisValues position() const;
 
  private:

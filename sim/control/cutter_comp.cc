@@ -62,13 +62,13 @@ void CutterComp::Push(const Command& command) {
     MachineMove(command);
     return;
   }
-  commanded_ = command.comp != Command::Comp::kOff;
-  if (phase_ == Phase::kOff && !commanded_) {
+  const bool commanded = command.comp != Command::Comp::kOff;
+  if (phase_ == Phase::kOff && !commanded) {
     programmed_ = command.end;
     out_(command);
     return;
   }
-  if (command.cycle != 0 && commanded_) {
+  if (command.cycle != 0 && commanded) {
     report_(MakeFinding(Rule::kUnsupportedCode, command.where,
                         "a canned cycle while cutter compensation is active"));
   }
@@ -76,7 +76,7 @@ void CutterComp::Push(const Command& command) {
     OutsideXY(command);
   } else if (phase_ == Phase::kOff) {
     Enter(command);
-  } else if (commanded_) {
+  } else if (commanded) {
     Continue(command);
   } else {
     Exit(command);
@@ -101,11 +101,8 @@ void CutterComp::Flush() {
   phase_ = Phase::kFlushed;
 }
 
-void CutterComp::Stop(const SourcePosition& where) {
-  Flush();
-  if (commanded_) {
-    Alarm(where, "the program stops while cutter compensation is active (G40 is missing)");
-  }
+void CutterComp::AlarmAtStop(const SourcePosition& where) {
+  Alarm(where, "the program stops while cutter compensation is active (G40 is missing)");
 }
 
 bool CutterComp::MovesInXY(const Command& command) const {
@@ -129,7 +126,7 @@ void CutterComp::MachineMove(const Command& command) {
   Flush();
   const bool leaves =
       (command.named & (1U << kX | 1U << kY)) != 0 || command.kind == CommandKind::kToolChange;
-  if (on && commanded_) {
+  if (on && command.comp != Command::Comp::kOff) {
     report_(MakeFinding(Rule::kUnsupportedCode, command.where,
                         "a move in machine coordinates while cutter compensation is active"));
   }

@@ -39,8 +39,8 @@ class CutterComp {
   void Push(const Command& command);
   /// Sends on what waits, ended beside its own end: what comes next is not known.
   void Flush();
-  /// Program stop or end at `where`: a control-alarm while compensation is commanded.
-  void Stop(const SourcePosition& where);
+  /// The program stops or ends at `where` with G41 or G42 in force.
+  void AlarmAtStop(const SourcePosition& where);
 
  private:
   enum class Phase {
@@ -91,7 +91,6 @@ class CutterComp {
   Report report_;
   Phase phase_ = Phase::kOff;
   bool alarmed_ = false;     ///< The control stops at its first alarm; more would be noise.
-  bool commanded_ = false;   ///< G41 or G42 in force.
   AxisValues programmed_{};  ///< Programmed end of the last command.
   Point beside_ =
       Point::Zero();     ///< Tool minus programmed position, XY, after what has been sent on.

@@ -155,6 +155,47 @@ TEST_P(CutterCompProperty, TheToolKeepsItsRadius) {
   }
 }
 
+// Whatever a program says, what goes on to the machine is finite.
+TEST(CutterCompRandom, NoProgramBreaksIt) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> at(-10.0, 10.0);
+  for (int program = 0; program < 2000; ++program) {
+    int alarms = 0;
+    ContourOptions options;
+    options.type_b = random() % 2 == 0;
+    options.fanuc_corners = random() % 2 == 0;
+    Contour contour(
+        options,
+        [](const Command& command) {
+          for (const double value : command.end) ASSERT_TRUE(std::isfinite(value));
+        },
+        [&](const Finding& finding) { alarms += finding.rule == Rule::kControlAlarm ? 1 : 0; });
+    AxisValues position{};
+    for (int n = 0; n < 30; ++n) {
+      // Coarse points, so that moves repeat, reverse and touch.
+      Command command = FeedTo(std::round(at(random)), std::round(at(random)));
+      if (random() % 5 == 0) command = FeedTo(position[kX], position[kY], 1);
+      if (random() % 3 == 0) {
+        const Point middle(0.5 * (position[kX] + command.end[kX]),
+                           0.5 * (position[kY] + command.end[kY]));
+        const bool full = random() % 4 == 0;
+        if (full) command.end = position;
+        command = ArcTo(command.end[kX], command.end[kY], middle.x(), middle.y(), random() % 2 == 0,
+                        full);
+      }
+      if (random() % 8 == 0) command.corner_radius = std::abs(at(random));
+      const unsigned side = random() % 8;
+      if (side > 1) command.comp = side > 2 ? Command::Comp::kLeft : Command::Comp::kRight;
+      command.comp_radius = random() % 16 == 0 ? 0.0 : 1.5;
+      contour.Push(command);
+      position = command.end;
+      if (random() % 20 == 0) contour.Flush();
+    }
+    contour.Stop({}, true);
+    EXPECT_LE(alarms, 31);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, CutterCompProperty,
                          ::testing::Combine(::testing::Bool(), ::testing::Bool(), ::testing::Bool(),
                                             ::testing::Bool()));

@@ -391,13 +391,13 @@ TEST_F(CutterCompTest, G17Only) {
 
 TEST_F(CutterCompTest, StoppingWhileOnIsAnAlarm) {
   ToCorner();
-  contour_->Stop({0, 9, 1});
+  contour_->Stop({0, 9, 1}, true);
   ASSERT_THAT(Rules(), ElementsAre("control-alarm"));
   EXPECT_EQ(findings_[0].where.line, 9);
   Reset({});
   ToCorner();
   Off(FeedTo(10, 0, 5));  // G40 Z: never an XY move again, but cancelled.
-  contour_->Stop({0, 9, 1});
+  contour_->Stop({0, 9, 1}, false);
   EXPECT_THAT(findings_, IsEmpty());
   EXPECT_THAT(ToText(out_),
               ElementsAre("feed X0 Y2 Z0 F10", "feed X10 Y2 Z0 F10", "feed X10 Y2 Z5 F10"));
@@ -425,7 +425,7 @@ TEST_F(CutterCompTest, MachineCoordinatesWhileOnAreNotSimulated) {
   Command home = RapidTo(0, 0, 0);
   home.kind = CommandKind::kMachineRapid;
   home.named = 1U << kZ;
-  Off(home);
+  On(home);
   EXPECT_THAT(Rules(), ElementsAre("unsupported-code"));
 }
 

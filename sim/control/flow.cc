@@ -220,12 +220,6 @@ bool Flow::State::Condition(nc::Expression expression, int column, bool* holds) 
 bool Flow::State::EvaluateAt(nc::Expression expression, int column, nc::MacroValue* value) {
   std::string error;
   const bool done = nc::Evaluate(block.code, expression, variables, value, &error);
-  for (const long number : variables.TakeUnset()) {
-    report(MakeFinding(Rule::kAssumed, Here(column),
-                       "#" + std::to_string(number) +
-                           " is read before the program sets it; what the control kept in it is "
-                           "not known, and it is taken as undefined"));
-  }
   if (!done) Alarm(column, std::move(error));
   return done;
 }
@@ -290,8 +284,11 @@ bool Flow::State::Resolve(const nc::Word& word, ResolvedBlock* out) {
   resolved.comma = word.comma;
   resolved.column = word.column;
   if (word.address == 'M' || word.address == 'G') {
-    const char code = FlowCodeOf(word.address, std::round(resolved.value));
-    if (code != 0 && (resolved.from_expression || std::round(resolved.value) == resolved.value)) {
+    // The rounding of computed words comes later, as G65 takes its arguments unrounded.
+    const double code_value =
+        resolved.from_expression ? std::round(resolved.value * 10.0) / 10.0 : resolved.value;
+    const char code = FlowCodeOf(word.address, code_value);
+    if (code != 0) {
       several_flow_codes = several_flow_codes || flow_code != 0;
       flow_code = code;
       flow_code_column = word.column;

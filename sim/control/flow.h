@@ -52,6 +52,9 @@ class SystemVariables {
   /// first.
   virtual bool Read(long number, nc::MacroValue* value) = 0;
   virtual bool Write(long number, nc::MacroValue value) = 0;
+  /// The program reads a common variable (#100.., #10000..) that it has not set. The control keeps
+  /// them over power-off, so that "undefined" is an assumption. Once a variable.
+  virtual void AssumeUndefined(long number) = 0;
   /// Decimal places of a length in the control's unit: 4 for inch, 3 for mm. Computed words are
   /// rounded to it, and the integer arguments of G65 are scaled by it (manual 2017, "Integer
   /// Argument Passing").
@@ -80,9 +83,8 @@ enum class FlowEvent {
 ///
 /// What the control does and we cannot know is reported as `unsupported-code`, and the program goes
 /// on after it: a subprogram that is not found, M96, a jump to a block number that stands twice, an
-/// expression whose meaning the manual leaves open; `assumed` for a common variable read before it
-/// is set (the control keeps them over power-off). A syntax error or an alarm stops; further syntax
-/// errors of the same text are then reported too, up to a bound. Rules of flow: manual 2017,
+/// expression whose meaning the manual leaves open. A syntax error or an alarm stops; further
+/// syntax errors of the same text are then reported too, up to a bound. Rules of flow: manual 2017,
 /// "Control Statements", "Subprograms", "M97", "M98", "M99", "G65".
 class Flow {
  public:

@@ -30,8 +30,10 @@ class System : public SystemVariables {
     values[number] = value;
     return true;
   }
+  void AssumeUndefined(long number) override { assumed.push_back(number); }
   int length_decimals() const override { return decimals; }
 
+  std::vector<long> assumed;
   std::map<long, nc::MacroValue> values;
   int decimals = 4;
 };
@@ -130,7 +132,8 @@ TEST_F(FlowTest, Substitution) {
 
 TEST_F(FlowTest, ComputedWordsAreNeverScaled) {
   SourceFiles files;
-  Flow flow(nc::Program::FromText("t", "#1=2\nX#1 Y3 Z4."), {}, &system_, &files, [](Finding) {});
+  Flow flow(nc::Program::FromText("t", "#1=2\nX#1 Y3 Z4."), {}, &system_, &files,
+            [](const Finding&) {});
   ResolvedBlock block;
   ASSERT_EQ(flow.Next(&block), FlowEvent::kBlock);
   EXPECT_TRUE(block.Find('X')->has_point);
@@ -156,7 +159,7 @@ TEST_F(FlowTest, Assignments) {
 
 TEST_F(FlowTest, ACommonVariableThatTheProgramDidNotSet) {
   const Result result = Run("X1 Y#501\nX#501\n#502=1\nX#502\nX#10501\n");
-  EXPECT_EQ(result.findings, "1:4 assumed");
+  EXPECT_EQ(system_.assumed, std::vector<long>{501});
   EXPECT_EQ(result.blocks, "X1 | X1");
 }
 
@@ -390,6 +393,7 @@ TEST_F(FlowTest, SyntaxErrorsOfTheRestAreReportedTooUpToABound) {
 }
 
 TEST_F(FlowTest, CodesOfTheFlowMayBeComputed) {
+  EXPECT_EQ(Text("#1=97.4\nM#1 P5\nN5"), "M97.4 P5");
   EXPECT_EQ(Text("#1=97 #2=5\nM#1 P#2\nX2\nM30\nN5 X1\nM99"), "X1 | X2 | M30");
 }
 

@@ -118,7 +118,7 @@ bool HaasInterpreter::DrillHole(const AxisValues& hole) {
   if (spindle_ == 0) spindle_ = spindle_command_.value_or(1);
   command_.spindle_on = spindle_ != 0 && rpm_ > 0.0;
   if (!CheckFeed()) return false;
-  BeforeLinearMotion();
+  BeforeLinearMotion(true);
   command_.cycle = ++cycle_count_;
   std::string error;
   const auto end = ExpandCycle(
@@ -167,6 +167,9 @@ bool HaasInterpreter::ExecutePocket(bool clockwise) {
   const double d = parts_.registers->Tool(ToolRegister::kDiameter, d_) +
                    parts_.registers->Tool(ToolRegister::kDiameterWear, d_);
   words.tool_radius = settings_.diameter_d ? 0.5 * d : d;
+  if (!has_d_) {
+    Unsupported("pocket without D", block_.where(), "G12 or G13 with no D in force");
+  }
   int repeats = 1;
   if (block_.Has('L')) {
     const std::optional<int> l = block_.Integer('L', 0, kMaxRepeats);
@@ -176,7 +179,7 @@ bool HaasInterpreter::ExecutePocket(bool clockwise) {
   const bool has_z = (MachineAxisWords() & 1U << kZ) != 0;
   const double z = has_z ? block_.Axis(kZ) : 0.0;
   if (!CheckFeed()) return false;
-  BeforeLinearMotion();
+  BeforeLinearMotion(true);
   command_.comp = Command::Comp::kOff;
   for (int i = 0; i < repeats; ++i) {
     words.depth = !has_z ? position_[kZ] : incremental() ? position_[kZ] + z : z;

@@ -14,6 +14,8 @@ namespace {
 constexpr double kLengthTolerance = 0.5;
 // rad, mm: an offset value that is entered as 0.
 constexpr double kZero = 1e-9;
+// Honest programs have tens; a macro that makes more must not eat memory.
+constexpr int kMaxPartFrames = 100'000;
 
 }  // namespace
 
@@ -192,6 +194,10 @@ void HaasInterpreter::RefreshFrame(bool tcp_on) {
     position_ = parts_.frames->ToProgram(std::make_shared<const Frame>(plain), machine);
   }
   frame_ = std::make_shared<const Frame>(frame);
+  if (frame.offset_index >= kMaxPartFrames) {
+    log_.Alarm(Rule::kUnsupportedCode, block_.where(),
+               "too many different work offsets in one run");
+  }
   if (!tcp_on) position_ = parts_.frames->ToProgram(frame_, machine);
   contour_.SetPosition(position_);
   frame_dirty_ = false;
@@ -331,9 +337,9 @@ bool HaasInterpreter::SetToolRegister(int l) {
   return true;
 }
 
-// Before the first motion of X, Y or Z in a frame: is its offset known, does its length describe
-// the metal?
-void HaasInterpreter::BeforeLinearMotion() {
+// Before the first motion of X, Y or Z in a frame: is its offset known, and does its length
+// describe the metal? The length matters where Z moves, or all linear axes together.
+void HaasInterpreter::BeforeLinearMotion(bool uses_length) {
   if (!offset_checked_) {
     offset_checked_ = true;
     if (!parts_.registers->IsStated(offset_)) {
@@ -345,7 +351,7 @@ void HaasInterpreter::BeforeLinearMotion() {
                   true);
     }
   }
-  if (!length_checked_) CheckToolLength();
+  if (uses_length && !length_checked_) CheckToolLength();
 }
 
 void HaasInterpreter::CheckToolLength() {
@@ -355,9 +361,9 @@ void HaasInterpreter::CheckToolLength() {
   const std::string h = "H" + std::to_string(h_);
   if (length < 0.0) {
     if (frame_->rotation == Frame::Rotation::kNone) return;  // Touched off on the machine.
-    log_.Report(Rule::kToolLength, block_.where(),
-                h + " is " + Fixed(length, 3) + " mm: " + (tcp() ? "G234" : "G254") +
-                    " needs the length from the gauge line, not a touched-off one");
+    log_.ReportOnce("touched off " + h, Rule::kToolLength, block_.where(),
+                    h + " is " + Fixed(length, 3) + " mm: " + (tcp() ? "G234" : "G254") +
+                        " needs the length from the gauge line, not a touched-off one");
     return;
   }
   const machine::Tool* tool = parts_.tools->Find(tool_);
@@ -367,7 +373,7 @@ void HaasInterpreter::CheckToolLength() {
                                     " in the spindle is " + Fixed(tool->length, 3) +
                                     " mm from gauge line to tip");
   if (length > 0.0) finding.severity = Severity::kWarning;
-  log_.Report(std::move(finding));
+  log_.ReportOnce("length " + h + " T" + std::to_string(tool_), std::move(finding));
 }
 
 }  // namespace ncsim::control

@@ -48,6 +48,9 @@ HaasInterpreter::HaasInterpreter(const Parts& parts, const CodeIndex& codes,
     codes_[static_cast<std::size_t>(spec.group)] = spec.number_x10;
   }
   codes_[kGroupUnits] = settings_.inch ? 200 : 210;
+  for (int axis = kX; axis < kNumAxes; ++axis) {
+    if (!axes_.has(axis)) missing_axes_ += "XYZABC"[axis];
+  }
   cycle_.r = cycle_.z = std::nan("");
   frame_ = std::make_shared<const Frame>(MakeFrame());
   position_ = parts_.frames->ToProgram(frame_, parts_.to_motion->position());
@@ -75,11 +78,7 @@ void HaasInterpreter::Execute(ResolvedBlock* block) {
   ExecuteLoaded();
   if (log_.stopped()) return;
   RememberWords(*block);
-  std::string missing;
-  for (int axis = kX; axis < kNumAxes; ++axis) {
-    if (!axes_.has(axis)) missing += "XYZABC"[axis];
-  }
-  block_.ReportLeftovers(missing);
+  block_.ReportLeftovers(missing_axes_);
 }
 
 void HaasInterpreter::ExecuteLoaded() {
@@ -100,7 +99,8 @@ void HaasInterpreter::Finish() {
 }
 
 void HaasInterpreter::CollectCodes() {
-  in_block_.fill(nullptr);
+  if (has_codes_) in_block_.fill(nullptr);
+  has_codes_ = !block_.g_codes().empty();
   non_modal_ = nullptr;
   tcp_on_ = feed_in_block_ = defining_ = false;
   for (const CodeUse& use : block_.g_codes()) {
@@ -183,6 +183,7 @@ bool HaasInterpreter::ApplyToolWords() {
     const std::optional<int> d = block_.Integer('D', 0, kMaxToolOffset);
     if (!d) return false;
     d_ = *d;
+    has_d_ = true;
   }
   return true;
 }
@@ -191,6 +192,10 @@ bool HaasInterpreter::ApplyComp() {
   const CodeUse* use = CodeOf(kGroupComp);
   if (use == nullptr) return true;
   codes_[kGroupComp] = use->spec->number_x10;
+  if (!IsSet(kGroupComp, 40) && d_ == 0 && !has_d_) {
+    Unsupported("comp without D", block_.WhereOf(*use->word),
+                CodeName('G', use->word->value) + " with no D in force: none is compensated");
+  }
   if (IsSet(kGroupComp, 40) || plane_ == Plane::kXY) return true;
   log_.Alarm(Rule::kControlAlarm, block_.WhereOf(*use->word),
              CodeName('G', use->word->value) + ": cutter compensation works in G17 only");

@@ -124,7 +124,7 @@ class HaasInterpreter {
   bool SetG92();
   bool SetOffsets();  // G10
   bool SetToolRegister(int l);
-  void BeforeLinearMotion();
+  void BeforeLinearMotion(bool uses_length);
   void CheckToolLength();
 
   // haas_motion.cc
@@ -174,6 +174,8 @@ class HaasInterpreter {
   std::array<int, kNumGroups> codes_{};  ///< Modal code of each group, times ten.
   std::array<const CodeUse*, kNumGroups> in_block_{};
   const CodeUse* non_modal_ = nullptr;  ///< The block's code of group 0 that takes its axis words.
+  bool has_codes_ = false;              ///< in_block_ is not all null.
+  std::string missing_axes_;            ///< Letters of axes that the machine lacks.
   std::array<std::optional<double>, 26> last_words_{};
   std::shared_ptr<const Frame> frame_;
   AxisValues position_{};  ///< Programmed position, program coordinates of frame_.
@@ -186,6 +188,8 @@ class HaasInterpreter {
   std::optional<int> spindle_command_;  ///< As the last M03, M04 or M05 said.
   int tool_ = 0, next_tool_ = -1;
   int h_ = 0, d_ = 0;
+  bool has_d_ =
+      false;        ///< A D has been commanded: D0 is an offset of none, no D at all is none known.
   int offset_ = 0;  ///< Index of the active work offset.
   std::uint8_t brakes_ = 0;
   double corner_rounding_ = 0.0;

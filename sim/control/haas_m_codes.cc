@@ -66,7 +66,7 @@ void HaasInterpreter::StopProgram(bool end) {
     AssumeUnlessStated("optional_stop", "optional stop", "off: M01 does not stop");
     if (!settings_.optional_stop) return;
   }
-  contour_.Stop(block_.where());
+  contour_.Stop(block_.where(), !IsSet(kGroupComp, 40));
   spindle_ = 0;
   ended_ = end;
 }

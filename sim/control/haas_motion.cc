@@ -124,7 +124,7 @@ bool HaasInterpreter::ExecuteMotion() {
     if (!CheckFeed()) return false;
     CheckCancelledTcp(words);
   }
-  if ((words & kLinear) != 0 || is_arc) BeforeLinearMotion();
+  if ((words & kLinear) != 0 || is_arc) BeforeLinearMotion((words & 1U << kZ) != 0 || tcp());
   for (int i = 0; i < repeats && !log_.stopped(); ++i) {
     if (!Move(words, values, arc)) return false;
   }

@@ -92,14 +92,14 @@ void HaasRegisters::SetTool(ToolRegister which, int number, double value) {
 }
 
 int PartFrames::Index(const std::string& name, const AxisValues& values) {
-  for (std::size_t i = values_.size(); i-- > 0;) {
-    if (values_[i] == values && (*frames_)[i].name == name) return static_cast<int>(i);
+  const auto [found, is_new] =
+      indices_.try_emplace({name, values}, static_cast<int>(frames_->size()));
+  if (is_new) {
+    std::map<char, double> by_letter;
+    for (std::size_t axis = 0; axis < kNumAxes; ++axis) by_letter[kLetters[axis]] = values[axis];
+    frames_->push_back({name, machine::OffsetFrame(*machine_, by_letter)});
   }
-  std::map<char, double> by_letter;
-  for (std::size_t axis = 0; axis < kNumAxes; ++axis) by_letter[kLetters[axis]] = values[axis];
-  frames_->push_back({name, machine::OffsetFrame(*machine_, by_letter)});
-  values_.push_back(values);
-  return static_cast<int>(frames_->size()) - 1;
+  return found->second;
 }
 
 }  // namespace ncsim::control

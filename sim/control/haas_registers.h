@@ -4,8 +4,10 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/control/command.h"
@@ -63,7 +65,7 @@ class PartFrames {
  private:
   const machine::Machine* machine_;
   std::vector<PartFrame>* frames_;
-  std::vector<AxisValues> values_;
+  std::map<std::pair<std::string, AxisValues>, int> indices_;
 };
 
 }  // namespace ncsim::control

@@ -89,6 +89,18 @@ std::array<double, 3> ReadDiameters(const machine::Machine& machine, Reader* rea
   return diameters;
 }
 
+// Settings that move metal elsewhere and are not simulated: said where they are not neutral.
+void ReportUnsupported(const SettingSource& source, RunLog* log) {
+  constexpr std::array<int, 13> kSettings = {45,  46,  47,  48,  80,  250, 254,
+                                             300, 301, 302, 303, 304, 305};
+  for (const int number : kSettings) {
+    const std::string name = "setting " + std::to_string(number);
+    const auto text = source.Text(name);
+    if (!text || *text == "off" || source.Number(name).value_or(1.0) == 0.0) continue;
+    log->Report(Rule::kUnsupportedCode, {}, name + " = " + *text + " is not simulated");
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> SettingSource::Text(std::string_view name) const {
@@ -154,6 +166,7 @@ HaasSettings ReadHaasSettings(const SettingSource& source, const machine::Machin
   settings.g68_angle = Radians(reader.Number(72, 0.0));
   settings.g68_incremental = reader.Quiet("setting 73", false);
   settings.corner_rounding = reader.Number(85, 0.0);
+  if (!source.Number("setting 85")) log->Assume("setting 85", "0: corners are not rounded", false);
   settings.tool_change_together = reader.Quiet("setting 247", false);
   settings.rotary_centre = ReadCentre(source, machine);
   for (std::size_t i = 0; i < settings.tool_change_mid.size(); ++i) {
@@ -170,6 +183,7 @@ HaasSettings ReadHaasSettings(const SettingSource& source, const machine::Machin
   settings.contour.type_b = reader.Text("setting 43") == "b";
   settings.contour.fanuc_corners = reader.Text("setting 58") != "yasnac";
   settings.contour.least_arc_feed = reader.Number(44, 100.0) / 100.0;
+  ReportUnsupported(source, log);
   return settings;
 }
 

@@ -217,4 +217,9 @@ bool HaasVariables::Write(long number, nc::MacroValue value) {
   return true;
 }
 
+void HaasVariables::AssumeUndefined(long number) {
+  const std::string name = "variable #" + std::to_string(number);
+  log_->Assume(name, "read before the program sets it; taken as undefined", true);
+}
+
 }  // namespace ncsim::control

@@ -29,6 +29,7 @@ class HaasVariables final : public SystemVariables {
 
   bool Read(long number, nc::MacroValue* value) override;
   bool Write(long number, nc::MacroValue value) override;
+  void AssumeUndefined(long number) override;
   int length_decimals() const override { return settings_->inch ? 4 : 3; }
 
  private:

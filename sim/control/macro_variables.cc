@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/macro_variables.h"
 
-#include <utility>
-
 namespace ncsim::control {
 namespace {
 
@@ -29,7 +27,7 @@ bool MacroVariables::Read(long number, nc::MacroValue* value) {
     const auto index = static_cast<std::size_t>(common);
     if (!known_[index]) {
       known_[index] = true;
-      unset_.push_back(number);
+      system_->AssumeUndefined(number);
     }
     *value = commons_[index];
     return true;
@@ -98,11 +96,12 @@ int MacroVariables::DecimalsOf(char address) const {
     case 'C':
     case 'P':  // G04: milliseconds.
       return 3;
-    case 'D':
     case 'G':
+    case 'M':
+      return 1;  // A code that is no whole number stays visible as one that is not listed.
+    case 'D':
     case 'H':
     case 'L':
-    case 'M':
     case 'N':
     case 'O':
     case 'S':
@@ -112,7 +111,5 @@ int MacroVariables::DecimalsOf(char address) const {
       return system_->length_decimals();
   }
 }
-
-std::vector<long> MacroVariables::TakeUnset() { return std::exchange(unset_, {}); }
 
 }  // namespace ncsim::control

@@ -37,10 +37,6 @@ class MacroVariables final : public nc::VariableReader {
   void PopLocals() { locals_.pop_back(); }
   std::size_t levels() const { return locals_.size(); }
 
-  /// Commons that were read before the program set them, since the last call; each is named once a
-  /// run.
-  std::vector<long> TakeUnset();
-
  private:
   static constexpr long kFirstCommon = 10000;
   static constexpr std::size_t kCommons = 1000;
@@ -49,8 +45,7 @@ class MacroVariables final : public nc::VariableReader {
   SystemVariables* system_;
   std::vector<LocalVariables> locals_{1};
   std::array<nc::MacroValue, kCommons> commons_{};
-  std::bitset<kCommons> known_;  ///< Set by the program, or reported by TakeUnset().
-  std::vector<long> unset_;
+  std::bitset<kCommons> known_;                 ///< Set by the program, or assumed to be undefined.
   nc::MacroValue single_block_suppress_ = 0.0;  ///< #3003
   nc::MacroValue override_control_ = 0.0;       ///< #3004
   int decimals_ = 4;

@@ -19,7 +19,9 @@ class NoSystem : public SystemVariables {
     asked.push_back(number);
     return false;
   }
+  void AssumeUndefined(long number) override { assumed.push_back(number); }
   int length_decimals() const override { return 3; }
+  std::vector<long> assumed;
   std::vector<long> asked;
 };
 
@@ -88,9 +90,8 @@ TEST_F(MacroVariablesTest, CommonsReadBeforeTheyAreSetAreNamedOnce) {
   Value(10500);
   variables_.Write(501, 1.0);
   Value(501);
-  EXPECT_EQ(variables_.TakeUnset(), std::vector<long>{500});
   Value(500);
-  EXPECT_TRUE(variables_.TakeUnset().empty());
+  EXPECT_EQ(system_.assumed, std::vector<long>{500});
 }
 
 // "Rounded to the least significant digit": four places inch, three mm and degrees; offsets and
@@ -99,7 +100,7 @@ TEST_F(MacroVariablesTest, PlacesOfAnAddress) {
   EXPECT_EQ(variables_.DecimalsOf('X'), 3);
   EXPECT_EQ(variables_.DecimalsOf('B'), 3);
   EXPECT_EQ(variables_.DecimalsOf('D'), 0);
-  EXPECT_EQ(variables_.DecimalsOf('G'), 0);
+  EXPECT_EQ(variables_.DecimalsOf('G'), 1);
   variables_.SetAddress('T');
   EXPECT_EQ(variables_.address_decimals(), 0);
 }

@@ -20,13 +20,17 @@ void RunLog::Alarm(Rule rule, SourcePosition where, std::string message) {
 
 void RunLog::ReportOnce(std::string_view key, Rule rule, SourcePosition where,
                         std::string message) {
+  ReportOnce(key, MakeFinding(rule, where, std::move(message)));
+}
+
+void RunLog::ReportOnce(std::string_view key, Finding finding) {
   const auto found = repeated_.find(key);
   if (found != repeated_.end()) {
     ++found->second.count;
     return;
   }
   order_.emplace_back(key);
-  repeated_.emplace(order_.back(), Repeated{MakeFinding(rule, where, std::move(message)), 1});
+  repeated_.emplace(order_.back(), Repeated{std::move(finding), 1});
 }
 
 void RunLog::Assume(std::string_view name, std::string text, bool places_metal) {

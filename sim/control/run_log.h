@@ -25,6 +25,7 @@ class RunLog {
   void Alarm(Rule rule, SourcePosition where, std::string message);
   /// One finding a run for each `key`: the first place, with the number of further ones. Sent by
   /// Finish().
+  void ReportOnce(std::string_view key, Finding finding);
   void ReportOnce(std::string_view key, Rule rule, SourcePosition where, std::string message);
   /// Remembers an assumption once a name.
   void Assume(std::string_view name, std::string text, bool places_metal);

@@ -46,13 +46,13 @@ class BoxTest : public testing::TestWithParam<PathKind> {};
 
 TEST_P(BoxTest, HoldsEverySample) {
   Random random(11);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const Case c = RandomCase(&random);
     const double scale = std::pow(10.0, random.Uniform(-3.0, 0.0));
     const Motion motion = RandomMotion(&random, GetParam(), c.machine, c.frame, scale);
     const Span span = RandomSpan(&random, motion);
     const JointBox box = Box(motion, span);
-    const JointBox sampled = Sampled(motion, span, 40);
+    const JointBox sampled = Sampled(motion, span, 16);
     for (Eigen::Index j = 0; j < box.lower.size(); ++j) {
       EXPECT_LE(box.lower[j], sampled.lower[j] + kRounding) << "case " << i << " joint " << j;
       EXPECT_GE(box.upper[j], sampled.upper[j] - kRounding) << "case " << i << " joint " << j;
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Paths, BoxTest, testing::ValuesIn(kPathKinds),
 
 TEST(BoxExactnessTest, DogLegBoxIsTouchedByItsSamples) {
   Random random(12);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const Case c = RandomCase(&random);
     const Motion motion = RandomMotion(&random, PathKind::kDogLeg, c.machine, c.frame, 1.0);
     const Span span = RandomSpan(&random, motion);

@@ -73,8 +73,10 @@ struct AxisArc {
 struct TcpFrame {
   kinematics::FiveAxis control;  ///< The control's idea of the kinematics.
   double length = 0.0;           ///< Active tool length, mm.
-  /// Largest distance, in mm, between where the control believes a table point to be and where it
-  /// is (0 when the rotary centres agree): goes into the motion bound.
+  /// mm: how far the rotary axes that the control believes in lie from the metal's, all by one
+  /// vector (0 when they agree). With it, the tip's places in B as control and metal see them move
+  /// against each other by at most centre_error times the sum of the rotary joints' changes: a part
+  /// of the motion bound.
   double centre_error = 0.0;
 };
 

@@ -100,7 +100,7 @@ TEST(DogLegTest, NoLagIsThePolyline) {
 
 TEST(DogLegTest, EndsAreExactAtEveryLag) {
   Random random(1);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 500; ++i) {
     const TestMachine machine = RandomMachine(&random);
     const JointVector q0 = RandomPosition(&random, machine.tree);
     const double scale = std::pow(10.0, random.Uniform(-4.0, 0.0));
@@ -118,7 +118,7 @@ TEST(DogLegTest, EndsAreExactAtEveryLag) {
 // profile's place.
 TEST(DogLegTest, ProfileIsThatOfAnAxisDrivenStepByStep) {
   Random random(2);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 50; ++i) {
     const double way = random.Uniform(0.5, 100.0);
     const double rate = random.Uniform(20.0, 200.0);
     const double ramp = random.Uniform(0.05, 0.6);
@@ -189,7 +189,7 @@ TEST(AxisArcTest, HelixGoesThroughItsQuarters) {
 
 TEST(TcpCurveTest, TipStaysOnTheLineAndTheRotaryJointsKeepProportion) {
   Random random(3);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const TestMachine machine = RandomMachine(&random, {random.Chance(0.5), random.Chance(0.3)});
     const auto frame = MakeFrame(machine, random.Uniform(50.0, 250.0));
     const Motion motion = RandomMotion(&random, PathKind::kTcpLine, machine, frame, 1.0);

@@ -19,16 +19,16 @@ using kinematics::FiveAxis;
 double Sampled(const Motion& motion, const PairPath& pair, const Span& span, double s_ref,
                double lag_ref, int steps, Random* random) {
   std::vector<Eigen::Vector3d> points{pair.a.p_LC};
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 12 && pair.a.radius > 0.0; ++i) {
     points.emplace_back(pair.a.p_LC + pair.a.radius * random->Direction());
   }
   const Eigen::Isometry3d X_ref = pair.path.Pose(motion.At(s_ref, lag_ref));
   double farthest = 0.0;
-  const int lags = span.lag0 == span.lag1 ? 0 : 8;
+  const int lags = span.lag0 == span.lag1 ? 0 : 4;
   for (int i = 0; i <= steps; ++i) {
     for (int k = 0; k <= lags; ++k) {
       const double s = std::lerp(span.s0, span.s1, static_cast<double>(i) / steps);
-      const double lag = lags == 0 ? span.lag0 : std::lerp(span.lag0, span.lag1, k / 8.0);
+      const double lag = lags == 0 ? span.lag0 : std::lerp(span.lag0, span.lag1, k / 4.0);
       const Eigen::Isometry3d X_BA = pair.path.Pose(motion.At(s, lag));
       for (const Eigen::Vector3d& p : points) {
         farthest = std::max(farthest, (X_BA * p - X_ref * p).norm());
@@ -46,7 +46,7 @@ TEST_P(RelativeBoundTest, IsNeverLessThanWhatIsSampled) {
   Random random(21);
   int tool_to_table = 0;
   int detours = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const TestMachine machine = RandomMachine(&random, {random.Chance(0.4), random.Chance(0.3)});
     const auto metal = FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
     ASSERT_TRUE(metal.has_value());
@@ -69,7 +69,7 @@ TEST_P(RelativeBoundTest, IsNeverLessThanWhatIsSampled) {
     const double lag_ref = random.Uniform(span.lag0, span.lag1);
     const double bound = RelativeBound(motion, pair, span, s_ref, lag_ref);
     ASSERT_TRUE(std::isfinite(bound));
-    EXPECT_LE(Sampled(motion, pair, span, s_ref, lag_ref, 24, &random), bound + kRounding)
+    EXPECT_LE(Sampled(motion, pair, span, s_ref, lag_ref, 12, &random), bound + kRounding)
         << "case " << i << (pair.tool_to_table ? " tool to table" : "");
   }
   EXPECT_GT(tool_to_table, 100);
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Paths, RelativeBoundTest, testing::ValuesIn(kPathKinds)
 TEST(RelativeBoundCentreTest, HoldsWhenTheControlBelievesInAnotherCentre) {
   Random random(22);
   double largest_share = 0.0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const Eigen::Vector3d pivot = random.InBox(300.0);
     const Eigen::Vector3d error = random.InBox(3.0);
     const TestMachine machine = kinematics::TrunnionBC(pivot, pivot + Eigen::Vector3d(0, 0, -50));
@@ -93,8 +93,8 @@ TEST(RelativeBoundCentreTest, HoldsWhenTheControlBelievesInAnotherCentre) {
     const auto metal = FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
     const auto control = FiveAxis::Make(believed.tree, believed.spindle_link, believed.table_link);
     ASSERT_TRUE(metal.has_value() && control.has_value());
-    const auto frame = std::make_shared<TcpFrame>(
-        TcpFrame{*control, random.Uniform(50.0, 250.0), FiveAxis::CentreError(*metal, *control)});
+    const auto frame =
+        std::make_shared<TcpFrame>(TcpFrame{*control, random.Uniform(50.0, 250.0), error.norm()});
     const Motion motion =
         RandomMotion(&random, random.Chance(0.5) ? PathKind::kTcpLine : PathKind::kTcpArc, machine,
                      frame, std::pow(10.0, random.Uniform(-3.0, 0.0)));
@@ -103,7 +103,7 @@ TEST(RelativeBoundCentreTest, HoldsWhenTheControlBelievesInAnotherCentre) {
       const PairPath pair(machine.tree, tip, link_b, &*metal);
       EXPECT_EQ(pair.tool_to_table, link_b == machine.table_link);
       const double bound = RelativeBound(motion, pair, Span{}, 0.5, 0.0);
-      const double moved = Sampled(motion, pair, Span{}, 0.5, 0.0, 40, &random);
+      const double moved = Sampled(motion, pair, Span{}, 0.5, 0.0, 24, &random);
       EXPECT_LE(moved, bound + kRounding) << "case " << i;
       if (!pair.tool_to_table) continue;
       // Without the centre's share the bound would be wrong in some cases: the test can fail.
@@ -116,48 +116,37 @@ TEST(RelativeBoundCentreTest, HoldsWhenTheControlBelievesInAnotherCentre) {
   EXPECT_GT(largest_share, 0.1);
 }
 
-/// Bound over sampled displacement, for a tool of the UMC kind (150 mm long, extent 80 mm) against
-/// table, trunnion and base, on blocks of the usual size. What is measured goes into the test's
-/// properties.
-struct Tightness {
-  double mean = 0.0;
-  double worst = 0.0;
-};
-
-Tightness Measure(PathKind kind, const char* link_b, double width) {
+/// Sum of the bounds over the sum of the sampled displacements, for a tool of the UMC kind (150 mm
+/// long, extent 80 mm) against table, trunnion and base, on blocks of the usual size.
+double Tightness(PathKind kind, const char* link_b, double width) {
   Random random(23);
   const TestMachine machine = kinematics::TrunnionBC({0, 0, -500}, {0, 0, -550});
   const auto metal = FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
   const auto frame = std::make_shared<TcpFrame>(TcpFrame{*metal, 150.0, 0.0});
   const PairPath pair(machine.tree, {machine.spindle_link, {0, 0, 75}, 80.0},
                       machine.tree.FindLink(link_b), &*metal);
-  Tightness tightness;
-  int cases = 0;
-  while (cases < 200) {
+  double bounds = 0.0;
+  double displacements = 0.0;
+  for (int i = 0; i < 100; ++i) {
     const Motion motion = RandomMotion(&random, kind, machine, frame, 0.1);
     Span span = Whole(motion);
     span.s0 = 0.5 - width / 2;
     span.s1 = 0.5 + width / 2;
-    const double bound = RelativeBound(motion, pair, span, 0.5, 0.5 * span.lag1);
-    const double moved = Sampled(motion, pair, span, 0.5, 0.5 * span.lag1, 16, &random);
-    if (moved < 1e-9) continue;  // what moves, if anything, is not between the two
-    ++cases;
-    tightness.mean += bound / moved;
-    tightness.worst = std::max(tightness.worst, bound / moved);
+    bounds += RelativeBound(motion, pair, span, 0.5, 0.5 * span.lag1);
+    displacements += Sampled(motion, pair, span, 0.5, 0.5 * span.lag1, 8, &random);
   }
-  tightness.mean /= cases;
-  return tightness;
+  return bounds / displacements;
 }
 
-TEST(RelativeBoundTightnessTest, IsWithinAFactorOfTwoOnAverage) {
+// What is measured goes into the test's properties.
+TEST(RelativeBoundTightnessTest, IsWithinAFactorOfTwo) {
   for (const PathKind kind : kPathKinds) {
     for (const char* link_b : {"workpiece_mount_link", "B_link", "base"}) {
       for (const double width : {0.01, 0.5}) {
-        const Tightness tightness = Measure(kind, link_b, width);
-        RecordProperty(
-            ToString(kind) + "_" + link_b + (width < 0.1 ? "_short" : "_long"),
-            std::to_string(tightness.mean) + " worst " + std::to_string(tightness.worst));
-        EXPECT_LT(tightness.mean, 2.0) << ToString(kind) << " " << link_b << " " << width;
+        const double tightness = Tightness(kind, link_b, width);
+        RecordProperty(ToString(kind) + "_" + link_b + (width < 0.1 ? "_short" : "_long"),
+                       std::to_string(tightness));
+        EXPECT_LT(tightness, 2.0) << ToString(kind) << " " << link_b << " " << width;
       }
     }
   }

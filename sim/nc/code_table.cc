@@ -97,6 +97,7 @@ std::string CoverageTable(const Dialect& dialect) {
   for (const CodeSpec& spec : dialect.codes) {
     if (spec.address == 'M') text += Row(spec);
   }
+  if (!dialect.notes.empty()) text += "\n" + std::string(dialect.notes);
   return text;
 }
 

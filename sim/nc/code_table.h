@@ -34,6 +34,7 @@ struct Dialect {
   std::string_view id;    ///< "haas-ngc".
   std::string_view name;  ///< "Haas NGC mill (2017)".
   std::span<const CodeSpec> codes;
+  std::string_view notes;  ///< Markdown: how the text is read where the manual leaves it open.
   const CodeSpec* Find(char address, double number) const;
 };
 

@@ -65,7 +65,7 @@ TEST(CodeTableTest, OneDefaultAModalGroup) {
   for (const int group : groups) EXPECT_EQ(defaults[group], 1) << "group " << group;
 }
 
-TEST(CodeTableTest, EveryCodeThatIsNotSimulatedSaysWhatHappens) {
+TEST(CodeTableTest, EveryCodeHasAMeaning) {
   for (const CodeSpec& spec : HaasNgc().codes) {
     EXPECT_FALSE(spec.meaning.empty());
     for (const char word : spec.words) EXPECT_TRUE(word >= 'A' && word <= 'Z');

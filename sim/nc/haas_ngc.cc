@@ -230,10 +230,43 @@ constexpr std::array kCodes = {
     M(139, kNone, "", "Spindle speed variation off"),
 };
 
+constexpr std::string_view kNotes =
+    R"md(## How the text is read
+
+Source: Haas NGC Mill Operator's Manual 2017, "Macros (Optional)", "M97" to "M99", "G65". Where it
+leaves something open, ncsim takes the reading that cannot hide a crash, and says so.
+
+- A space between an address and its number (`X 0`) is an error, as the manual's chapter "Editing"
+  says. `X #1` and `X [..]` are fine. Lower case letters count as upper case.
+- An address that stands twice in a block is an error, but for G, M, and the I J K of a macro
+  call.
+- `;` ends a block; only a comment may follow it on its line.
+- A computed word is rounded to the last place of its address ("Address Substitution"): 4 places
+  inch, 3 places mm and degrees, whole numbers for D, H, L, S, T. `ROUND` in an address rounds to
+  the same places.
+- `#0` is undefined: an address given an undefined value is dropped, `EQ` and `NE` tell undefined
+  from 0, and in all other operations it counts as 0.
+- Operators: functions before `* / MOD AND`, before `+ - OR XOR`, before comparisons, which is
+  Fanuc's order; the manual has none. An expression in which `AND`, `OR` or `XOR` stands beside
+  another operator without brackets, and `ATAN[a]/[b]`, are therefore `unsupported-code` beside
+  their value.
+- A common variable that the program reads before it sets it is undefined by assumption: the
+  control keeps these over power-off.
+- `GOTO` and `M99 P` look for the block number from the current block to the program's end, then
+  from its beginning. A number that stands more than once is `unsupported-code`. `M99 P` in a
+  subprogram jumps in that subprogram.
+- Subprograms are looked for in the calling file, in the main program's file, in its folder, then
+  in the folders that job and model name. One that is not found is `unsupported-code`, and the
+  program goes on behind the call.
+- `M99` in the main program ends the check: the control would start the program again.
+- Calls may be nested 10 deep, G65 9 deep, loops 3 deep in each subprogram. A program that has not
+  ended after 50 million blocks is stopped, and `unsupported-code` says so.
+)md";
+
 }  // namespace
 
 const Dialect& HaasNgc() {
-  static const Dialect dialect = {"haas-ngc", "Haas NGC mill (2017)", kCodes};
+  static const Dialect dialect = {"haas-ngc", "Haas NGC mill (2017)", kCodes, kNotes};
   return dialect;
 }
 

@@ -54,7 +54,7 @@ module enclosure_walls() {
       between([x, enclosure_front - wall, enclosure_bottom], [x + wall, enclosure_back, enclosure_top]);
     between([-w - wall, enclosure_front - wall - 60, enclosure_bottom], [w + wall, enclosure_front, front_top]);
     for (x = [-w + 70, w - 70])
-      between([x - 77, enclosure_back - 30, enclosure_bottom], [x + 77, enclosure_back, rear_base_top - 30]);
+      between([x - 77, enclosure_back - 30, enclosure_bottom], [x + 77, enclosure_back, rear_base_top - 150]);
   }
 }
 

@@ -104,7 +104,7 @@ module side_panel(x0, x1, outside) {
 
 // Closes the gap between the base and the side panel.
 module back_post(x) {
-  between([x - 77, enclosure_back - 30, enclosure_bottom + 10], [x + 77, enclosure_back - 5, rear_base_top - 30]);
+  between([x - 77, enclosure_back - 30, enclosure_bottom + 10], [x + 77, enclosure_back - 5, rear_base_top - 150]);
 }
 
 module enclosure_left() {

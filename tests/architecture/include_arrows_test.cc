@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arrows of docs/architecture.md, held against the includes: a module may use only what is
+// listed for it, and a third-party library is met in its own module and nowhere else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, std::set<std::string>> kArrows = {
+    {"sim/base", {}},
+    {"kinematics", {"sim/base"}},
+    {"sim/nc", {"sim/base"}},
+    {"sim/machine", {"sim/base", "kinematics"}},
+    {"sim/motion", {"sim/base", "kinematics", "sim/machine"}},
+    {"sim/checks", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
+    {"sim/collision", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
+    {"sim/control", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
+    {"sim/report",
+     {"sim/base", "kinematics", "sim/machine", "sim/motion", "sim/checks", "sim/collision"}},
+    {"sim/app",
+     {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control", "sim/checks",
+      "sim/collision", "sim/report"}},
+};
+
+struct Library {
+  std::string include_pattern;
+  std::string module;  // the only one that may include it
+  int max_files;       // heavy headers are kept in one or two files
+};
+const std::vector<Library> kLibraries = {
+    {"fcl/", "sim/collision", 2},
+    {"assimp/", "sim/machine", 1},
+    {"urdf_parser/", "sim/machine", 1},
+    {"urdf_model/", "sim/machine", 1},
+    {"tinyxml2", "sim/machine", 2},
+    {"toml\\+\\+|toml\\.hpp", "sim/base", 1},
+    {"CLI/", "sim/app", 1},
+    {"nlohmann/", "sim/report", 1},
+};
+
+struct Include {
+  std::string file;    // relative to the root
+  std::string module;  // of the file
+  std::string target;  // as written
+  bool test = false;
+};
+
+std::string ModuleOf(const std::string& path) {
+  std::string best;
+  for (const auto& [module, uses] : kArrows) {
+    if (path.rfind(module + "/", 0) == 0 && module.size() > best.size()) best = module;
+  }
+  return best;
+}
+
+std::vector<Include> ReadIncludes(const std::string& root_folder) {
+  const fs::path root(NCSIM_SOURCE_DIR);
+  const std::regex pattern(R"re(^\s*#include\s*[<"]([^">]+)[">])re");
+  std::vector<Include> includes;
+  for (const auto& entry : fs::recursive_directory_iterator(root / root_folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".h" && extension != ".cc" && extension != ".def") continue;
+    const std::string file = fs::relative(entry.path(), root).generic_string();
+    std::ifstream in(entry.path());
+    for (std::string line; std::getline(in, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, pattern)) {
+        includes.push_back({file, ModuleOf(file), match[1],
+                            file.find("_test.cc") != std::string::npos ||
+                                file.find("test_") != std::string::npos});
+      }
+    }
+  }
+  return includes;
+}
+
+std::vector<Include> AllIncludes() {
+  std::vector<Include> all = ReadIncludes("sim");
+  const std::vector<Include> more = ReadIncludes("kinematics");
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+TEST(Architecture, EveryIncludeFollowsAnArrow) {
+  const std::vector<Include> includes = AllIncludes();
+  ASSERT_GT(includes.size(), 100u) << "the scan found hardly anything: is the path right?";
+  for (const Include& include : includes) {
+    const std::string target = ModuleOf(include.target);
+    if (target.empty() || target == include.module) continue;
+    EXPECT_TRUE(kArrows.at(include.module).count(target))
+        << include.file << " includes " << include.target << ": no arrow from " << include.module
+        << " to " << target << " in docs/architecture.md";
+  }
+}
+
+TEST(Architecture, EachLibraryIsMetInItsModuleOnly) {
+  const std::vector<Include> includes = AllIncludes();
+  for (const Library& library : kLibraries) {
+    const std::regex pattern("^(" + library.include_pattern + ")");
+    std::set<std::string> files;
+    for (const Include& include : includes) {
+      if (!std::regex_search(include.target, pattern)) continue;
+      EXPECT_EQ(include.module, library.module) << include.file << " includes " << include.target;
+      if (!include.test) files.insert(include.file);
+    }
+    EXPECT_LE(static_cast<int>(files.size()), library.max_files) << library.include_pattern;
+    EXPECT_FALSE(files.empty()) << library.include_pattern << " is met nowhere: drop it here";
+  }
+}
+
+// The scan itself must be able to fail.
+TEST(Architecture, AForbiddenArrowWouldBeSeen) {
+  EXPECT_EQ(ModuleOf("sim/collision/checker.h"), "sim/collision");
+  EXPECT_EQ(ModuleOf("fcl/fcl.h"), "");
+  EXPECT_FALSE(kArrows.at("sim/collision").count("sim/control"));
+  EXPECT_FALSE(kArrows.at("sim/nc").count("sim/machine"));
+}
+
+TEST(Architecture, FilesStayReadable) {
+  const fs::path root(NCSIM_SOURCE_DIR);
+  for (const char* folder : {"sim", "kinematics", "tests"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cc") continue;
+      std::ifstream in(entry.path());
+      const auto lines = std::count(std::istreambuf_iterator<char>(in), {}, '\n');
+      EXPECT_LE(lines, 600) << entry.path();
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The main job on a real program that nobody here wrote: right as it is, and wrong with one thing
+// wrong at a time. Expected rules and lines come from reading the program; see the comment at each
+// case.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "sim/app/app.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Scene {
+  std::string part_xyz = "[-50.8, -50.8, 150.0]";  // of G54, on the platter's centre
+  double riser_diameter = 100.0;
+  std::string holder_t3 = "\"CAT40-ER32-100\"";
+  std::string extra;  // more lines of the job
+  std::string body;   // [part] or [stock]
+};
+
+class Umc750Verdict : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const char* corpus = std::getenv("NCSIM_CORPUS");
+    if (!corpus) GTEST_SKIP() << "NCSIM_CORPUS is not set";
+    source_ = fs::path(corpus) / "haas/umc750-ubc";
+    folder_ = fs::temp_directory_path() /
+              ("ncsim_verdict_" +
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    fs::copy(fs::path(NCSIM_SOURCE_DIR) / "models/haas_umc750", folder_ / "model",
+             fs::copy_options::recursive);
+    fs::copy_file(source_ / "NCcodeForHAAS-UMC750Machine/FinalToolPath.stripped.nc", Program());
+    fs::permissions(Program(), fs::perms::owner_write, fs::perm_options::add);
+    scene_.body = PartBody();
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  fs::path Program() const { return folder_ / "part.nc"; }
+
+  std::string PartBody(const std::string& at = "{ on = \"G54\" }") const {
+    return "[part]\nmesh = \"" + (source_ / "FinalWorkpieceForFIVEAxisMachining.stl").string() +
+           "\"\nunit = \"inch\"\nat = " + at + "\n";
+  }
+  static std::string StockBody(
+      const std::string& at = "{ on = \"G54\", xyz = [50.8, 50.8, 0.0] }") {
+    return "[stock]\nbox = [101.6, 101.6, 101.6]\nat = " + at + "\n";
+  }
+
+  void Replace(const fs::path& path, const std::string& from, const std::string& to) {
+    std::ifstream in(path, std::ios::binary);
+    std::stringstream buffer;
+    buffer << in.rdbuf();
+    std::string text = buffer.str();
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from << " is not in " << path;
+    text.replace(at, from.size(), to);
+    fs::permissions(path, fs::perms::owner_write, fs::perm_options::add);
+    std::ofstream(path, std::ios::binary) << text;
+  }
+
+  /// Line `line` (from 1) becomes empty, so that all others keep their numbers.
+  void Blank(int line) {
+    std::ifstream in(Program());
+    std::string text;
+    int number = 0;
+    for (std::string row; std::getline(in, row);) text += (++number == line ? "" : row) + "\n";
+    std::ofstream(Program()) << text;
+  }
+
+  void WriteJob() {
+    std::ofstream job(folder_ / "part.nc.job.toml");
+    const auto tool = [&](int number, const char* name, const char* cutter,
+                          const std::string& holder) {
+      job << "[[tool]]\nnumber = " << number << "\nname = \"" << name << "\"\nlength = 180.0\n"
+          << "cutter = " << cutter << "\nholder = " << holder << "\n";
+    };
+    job << "schema = 1\nunits = \"mm\"\n[offsets]\nG54 = { on = \"workpiece_mount\", xyz = "
+        << scene_.part_xyz << " }\n";
+    tool(1, "MILL", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }",
+         "\"CAT40-ER32-100\"");
+    tool(2, "MILL_MULTI_AXIS", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }",
+         "\"CAT40-ER32-100\"");
+    tool(3, "BALL_MILL",
+         "{ type = \"ball\", diameter = 5.9944, corner_radius = 2.9972, flute_length = 30.0 }",
+         scene_.holder_t3);
+    job << "[[fixture]]\nname = \"riser\"\ncylinder = { diameter = " << scene_.riser_diameter
+        << ", height = 149.9 }\nat = { on = \"workpiece_mount\" }\n"
+        << scene_.body << "[check]\npart_tolerance = 0.15\n"
+        << scene_.extra;
+  }
+
+  /// Runs `ncsim check`; the JSON report.
+  json Check(int expected_exit) {
+    WriteJob();
+    std::ostringstream out, err;
+    const int code = ncsim::app::Run({"check", Program().string(), "--model",
+                                      (folder_ / "model/umc750.urdf").string(), "--format", "json"},
+                                     out, err);
+    EXPECT_EQ(code, expected_exit) << err.str() << out.str().substr(0, 4000);
+    return json::parse(out.str(), nullptr, false);
+  }
+
+  static bool Has(const json& report, const std::string& rule, int line) {
+    for (const json& finding : report["findings"]) {
+      if (finding["rule"] == rule && finding["line"] == line) return true;
+    }
+    return false;
+  }
+  static bool HasRule(const json& report, const std::string& rule) {
+    for (const json& finding : report["findings"]) {
+      if (finding["rule"] == rule) return true;
+    }
+    return false;
+  }
+  static bool HasBody(const json& report, const std::string& rule, const std::string& body) {
+    for (const json& finding : report["findings"]) {
+      if (finding["rule"] != rule || !finding.contains("bodies")) continue;
+      for (const json& name : finding["bodies"]) {
+        if (name == body) return true;
+      }
+    }
+    return false;
+  }
+  static std::string Errors(const json& report) {
+    std::string text;
+    for (const json& finding : report["findings"]) {
+      if (finding["severity"] != "warning") {
+        text += std::to_string(finding["line"].get<int>()) + ": " +
+                finding["message"].get<std::string>() + "\n";
+      }
+    }
+    return text;
+  }
+
+  Scene scene_;
+  fs::path folder_, source_;
+};
+
+TEST_F(Umc750Verdict, AsItIsItPasses) {
+  const json report = Check(0);
+  EXPECT_EQ(report["verdict"], "pass") << Errors(report);
+  EXPECT_GE(report["clearances"].size(), 10u);
+  for (const json& clearance : report["clearances"]) {
+    EXPECT_LE(clearance["proven_mm"].get<double>(), clearance["seen_mm"].get<double>() + 1e-9);
+  }
+}
+
+// With a blank (4 x 4 x 4 in) in place of the part the program also gets through to the first cut:
+// nothing touches the blank before line 38, the first feed.
+TEST_F(Umc750Verdict, WithABlankItReachesTheFirstCut) {
+  scene_.body = StockBody();
+  const json report = Check(0);
+  for (const json& finding : report["findings"]) EXPECT_NE(finding["severity"], "error");
+}
+
+// Closed form: at B82.875 C90 a part zero 240 mm out along X stands 484 mm below machine zero in Z
+// at line 1392, beyond the limit of -444.5 (M = P + R (w - P) + q + L).
+TEST_F(Umc750Verdict, PartOffCentreOvertravels) {
+  scene_.part_xyz = "[189.2, -50.8, 150.0]";
+  const json report = Check(1);
+  EXPECT_TRUE(Has(report, "travel-limit", 1392)) << Errors(report);
+}
+
+// Line 1671 starts at the tool-change pose. From X0 Y0 the dog-leg runs out X and Y together first
+// and then goes on in one of them across the part's corner; the straight line stays clear.
+TEST_F(Umc750Verdict, ToolChangePoseMakesTheDogLegHit) {
+  Replace(folder_ / "model/umc750.toml", "X = -736.6", "X = 0.0");
+  Replace(folder_ / "model/umc750.toml", "Y = -203.2", "Y = 0.0");
+  const json report = Check(1);
+  EXPECT_TRUE(Has(report, "rapid-contact", 1671)) << Errors(report);
+}
+
+TEST_F(Umc750Verdict, ToolChangePoseIsClearWithLinearRapids) {
+  Replace(folder_ / "model/umc750.toml", "X = -736.6", "X = 0.0");
+  Replace(folder_ / "model/umc750.toml", "Y = -203.2", "Y = 0.0");
+  scene_.extra = "[control]\n\"setting 335\" = \"linear\"\n";
+  Check(0);
+}
+
+TEST_F(Umc750Verdict, WideRiserIsHit) {
+  scene_.riser_diameter = 260.0;
+  const json report = Check(1);
+  EXPECT_TRUE(HasBody(report, "collision", "riser")) << Errors(report);
+}
+
+TEST_F(Umc750Verdict, WideHolderHits) {
+  scene_.holder_t3 = "[ { lower = 300.0, upper = 300.0, height = 100.0 } ]";
+  const json report = Check(1);
+  EXPECT_TRUE(HasBody(report, "collision", "T3.holder")) << Errors(report);
+}
+
+// Haas NGC Mill Operator's Manual 2017, G234: cannot be used together with G254.
+TEST_F(Umc750Verdict, G254LeftActiveMeetsG234) {
+  Blank(1653);  // N8070 G255
+  const json report = Check(1);
+  EXPECT_TRUE(Has(report, "control-alarm", 1670)) << Errors(report);
+}
+
+TEST_F(Umc750Verdict, OffsetTooLowCutsTheBlankInRapid) {
+  scene_.part_xyz = "[-50.8, -50.8, 130.0]";
+  scene_.body = StockBody("{ on = \"workpiece_mount\", xyz = [0.0, 0.0, 150.0] }");
+  const json report = Check(1);
+  EXPECT_TRUE(HasRule(report, "stock-contact")) << Errors(report);
+}
+
+TEST_F(Umc750Verdict, OffsetTooLowGougesThePart) {
+  scene_.part_xyz = "[-50.8, -50.8, 130.0]";
+  scene_.body = PartBody("{ on = \"workpiece_mount\", xyz = [-50.8, -50.8, 150.0] }");
+  const json report = Check(1);
+  EXPECT_TRUE(HasRule(report, "gouge")) << Errors(report);
+}
+
+// Line 12861 is the first that turns B beyond 90 (B93.722).
+TEST_F(Umc750Verdict, TiltBeyondItsLimit) {
+  Replace(folder_ / "model/umc750.urdf", "upper=\"2.0943951",
+          "upper=\"1.5707963267948966\" was=\"");
+  const json report = Check(1);
+  EXPECT_TRUE(Has(report, "travel-limit", 12861)) << Errors(report);
+}
+
+}  // namespace

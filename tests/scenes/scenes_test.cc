@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scenes as a user runs them: what passes passes without a word, and each program of the crash
+// gallery is found out by the rule that it is named after, at the line that its first comment
+// states.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sim/app/app.h"
+#include "sim/base/finding.h"
+
+namespace {
+
+using namespace ncsim;
+namespace fs = std::filesystem;
+
+const fs::path kRoot(NCSIM_SOURCE_DIR);
+
+struct Outcome {
+  int code = 0;
+  std::string text;
+};
+
+Outcome Check(const fs::path& program) {
+  std::ostringstream out, err;
+  Outcome outcome;
+  outcome.code = app::Run({"check", program.string()}, out, err);
+  outcome.text = out.str() + err.str();
+  return outcome;
+}
+
+std::vector<std::string> Gallery() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(kRoot / "scenes/crash_gallery")) {
+    if (entry.path().extension() == ".nc") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST(Scenes, ThreePlusTwoPasses) {
+  const Outcome outcome = Check(kRoot / "scenes/three_plus_two/angle_block.nc");
+  EXPECT_EQ(outcome.code, app::kExitPass) << outcome.text;
+}
+
+TEST(Scenes, FiveAxisPasses) {
+  const Outcome outcome = Check(kRoot / "scenes/five_axis/dome.nc");
+  EXPECT_EQ(outcome.code, app::kExitPass) << outcome.text;
+}
+
+TEST(Scenes, TheGalleryHasEveryRule) {
+  const std::vector<std::string> names = Gallery();
+  for (const RuleInfo& rule : Rules()) {
+    EXPECT_TRUE(std::count(names.begin(), names.end(), std::string(rule.id)))
+        << "no program in scenes/crash_gallery shows " << rule.id;
+  }
+}
+
+class CrashGallery : public ::testing::TestWithParam<std::string> {};
+
+// Line 0 in EXPECT is a finding about the whole run.
+TEST_P(CrashGallery, IsFoundAtItsLine) {
+  const fs::path program = kRoot / "scenes/crash_gallery" / (GetParam() + ".nc");
+  std::ifstream in(program);
+  std::string first;
+  std::getline(in, first);
+  std::smatch expect;
+  ASSERT_TRUE(std::regex_match(first, expect, std::regex(R"(\(EXPECT (\d+): ([a-z-]+)\)\r?)")))
+      << first;
+  ASSERT_EQ(expect[2], GetParam());
+  const Outcome outcome = Check(program);
+  const std::string where =
+      expect[1] == "0" ? R"(\.nc: )" : R"(\.nc:)" + expect[1].str() + R"(:\d+: )";
+  EXPECT_TRUE(
+      std::regex_search(outcome.text, std::regex(where + "[^\\n]*\\[" + GetParam() + "\\]")))
+      << outcome.text;
+  const Severity severity = Info(*RuleFromId(GetParam())).severity;
+  if (severity == Severity::kError) EXPECT_EQ(outcome.code, app::kExitFail) << outcome.text;
+  if (severity == Severity::kUnproven) EXPECT_EQ(outcome.code, app::kExitUnproven) << outcome.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryProgram, CrashGallery, ::testing::ValuesIn(Gallery()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace
