@@ -35,7 +35,11 @@ PairMonitor::PairMonitor(const machine::Machine& machine, const machine::CheckSe
       blank_(blank),
       findings_(findings),
       engine_(EngineOf(pair_)),
-      sweep_(PathOf(machine, pair_), engine_.get()) {}
+      sweep_(PathOf(machine, pair_), engine_.get()) {
+  if (pair_.swept == nullptr) return;
+  swept_engine_ = EngineOf(*pair_.swept);
+  swept_ = std::make_unique<PairSweep>(PathOf(machine, *pair_.swept), swept_engine_.get());
+}
 
 bool PairMonitor::has_clearance() const {
   if (pair_.role != PairRole::kNeverTouch || uncertified_) return false;
@@ -46,6 +50,7 @@ bool PairMonitor::has_clearance() const {
 void PairMonitor::Pause() {
   CloseRuns();
   sweep_.Forget();
+  if (swept_ != nullptr) swept_->Forget();
   reference_.Reset();
   warned_ = false;
 }
@@ -68,6 +73,10 @@ void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
   }
   judgement.watch.run_least = near_.open ? near_.least : kInfinity;
   judgement.watch.find_first = !contact_.open || pair_.role == PairRole::kOtherBlank;
+  if (ClearWhenSwept(motion, judgement.watch)) {
+    CloseRuns();
+    return;
+  }
   const SweepResult result = sweep_.Check(motion, judgement.watch);
   if (result.uncertified) {
     ReportOnce(Rule::kUncertified, motion, number,
@@ -82,6 +91,29 @@ void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
     const double seen = contact_.open ? contact_.least : result.least.upper;
     reference_.OnFeed(std::max(0.0, -seen));
   }
+}
+
+// Most motions of most pairs of links are settled by the swept pair, without a look at the rotary joint that turns most. It
+// is left alone for a while where it is not good enough.
+bool PairMonitor::ClearWhenSwept(const Motion& motion, const Watch& watch) {
+  if (swept_ == nullptr || !sweep_.has_least()) return false;
+  if (swept_wait_ > 0) {
+    --swept_wait_;
+    return false;
+  }
+  Watch whole;
+  whole.contact = sweep_.Need(watch);
+  whole.find_first = false;
+  const SweepResult result = swept_->Check(motion, whole);
+  if (result.contact || result.uncertified) {
+    swept_wait_ = swept_pause_;
+    swept_pause_ = std::min(2 * swept_pause_, 64);
+    return false;
+  }
+  swept_pause_ = 1;
+  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion.where);
+  sweep_.Accept(motion, swept_->known_clearance(), watch.track);
+  return true;
 }
 
 // The depth that a rapid may keep: it is where the feed before it left the tool.

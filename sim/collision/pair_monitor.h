@@ -54,6 +54,7 @@ class PairMonitor {
     SourcePosition last;
   };
 
+  bool ClearWhenSwept(const motion::Motion& motion, const Watch& watch);
   void OnSpindleStopped(const motion::Motion& motion, std::uint64_t number);
   double AllowedDepth(const motion::Motion& motion);
   void OnContact(const motion::Motion& motion, std::uint64_t number, const Judgement& judgement,
@@ -82,6 +83,10 @@ class PairMonitor {
   NumberedFindings* findings_;
   std::unique_ptr<PairEngine> engine_;
   PairSweep sweep_;
+  std::unique_ptr<PairEngine> swept_engine_;
+  std::unique_ptr<PairSweep> swept_;
+  int swept_wait_ = 0;   // motions until the swept pair is tried again
+  int swept_pause_ = 1;  // and how long the next wait is
   RapidReference reference_;
   Run contact_, near_, stopped_;
   bool uncertified_ = false;

@@ -2,13 +2,19 @@
 #include "sim/collision/pairs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <utility>
+
+#include "sim/collision/tessellate.h"
 
 namespace ncsim::collision {
 
 namespace {
 
 using machine::BodyKind;
+
+constexpr double kSweptSagitta = 0.5;  // mm
 
 bool Rigid(const machine::Machine& machine, int link_a, int link_b) {
   return kinematics::RelativePath(machine.tree, link_b, link_a).rigid();
@@ -39,6 +45,62 @@ double Reach(const machine::Machine& machine, const MeshBody& a, const MeshBody&
   return path.Bound(machine.Home(), a.extent, unit);
 }
 
+void ChooseA(const machine::Machine& machine, std::shared_ptr<const MeshBody> a,
+             std::shared_ptr<const MeshBody> b, Pair* pair) {
+  // The bound under TCP wants the tool side as A.
+  const bool tcp = machine.five_axis.has_value() &&
+                   Rigid(machine, a->extent.link, machine.spindle_link) &&
+                   Rigid(machine, b->extent.link, machine.table_link);
+  if (!tcp && Reach(machine, *b, *a) < Reach(machine, *a, *b)) std::swap(a, b);
+  pair->mesh_a = std::move(a);
+  pair->b = std::move(b);
+}
+
+// What `body` sweeps when the rotary joint that its link hangs on turns, as a body of the joint's parent: the convex solid
+// of revolution around all of it. Null where that joint is not rotary.
+std::shared_ptr<const MeshBody> SweptBody(const machine::Machine& machine, const MeshBody& body) {
+  const std::vector<int> moving = machine.tree.MovingJointsTo(body.extent.link);
+  if (moving.empty() || body.tree.empty()) return nullptr;
+  const kinematics::Joint& joint = machine.tree.joints()[static_cast<std::size_t>(moving.back())];
+  if (joint.type != kinematics::JointType::kRevolute) return nullptr;
+  // X_PJ with Z along the joint's axis.
+  Eigen::Isometry3d X_PZ = joint.X_PJ;
+  X_PZ.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis));
+  const motion::JointVector zero = motion::JointVector::Zero(machine.tree.num_moving());
+  const Eigen::Isometry3d X_PL =
+      kinematics::RelativePath(machine.tree, joint.parent_link, body.extent.link).Pose(zero);
+  const Eigen::Isometry3d X_ZL = X_PZ.inverse() * X_PL;
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < body.tree.size(); ++i) {
+    for (const Eigen::Vector3d& v : body.tree.triangle(i)) {
+      const Eigen::Vector3d p = X_ZL * v;
+      points.emplace_back(p.z(), std::hypot(p.x(), p.y()));
+    }
+  }
+  machine::SceneBody swept;
+  swept.name = body.name;
+  swept.kind = body.kind;
+  swept.link = joint.parent_link;
+  swept.mesh = Tessellate(ConvexHull(std::move(points)), 0.0, kSweptSagitta);
+  // Tessellate points its Z down the profile.
+  for (Eigen::Vector3d& v : swept.mesh.vertices) {
+    v = X_PZ * Eigen::Vector3d(v.x(), -v.y(), -v.z());
+  }
+  return std::make_shared<const MeshBody>(swept);
+}
+
+// The pair (a, b) with b swept, if b has a rotary joint of its own.
+std::shared_ptr<const Pair> SweptPair(const machine::Machine& machine, const Pair& pair,
+                                      const std::shared_ptr<const MeshBody>& a,
+                                      const std::shared_ptr<const MeshBody>& swept_b) {
+  if (swept_b == nullptr) return nullptr;
+  auto swept = std::make_shared<Pair>();
+  swept->role = pair.role;
+  swept->names = pair.names;
+  ChooseA(machine, a, swept_b, swept.get());
+  return swept;
+}
+
 PairRole RoleOf(BodyKind a, BodyKind b) {
   return a == BodyKind::kStock || b == BodyKind::kStock ? PairRole::kOtherBlank
                                                         : PairRole::kNeverTouch;
@@ -63,6 +125,12 @@ PairRole RoleOf(const ToolBody& tool, BodyKind other) {
 
 std::vector<Pair> ScenePairs(const machine::Machine& machine, const MeshBodies& bodies) {
   std::vector<Pair> pairs;
+  std::map<const MeshBody*, std::shared_ptr<const MeshBody>> swept;
+  const auto swept_of = [&](const std::shared_ptr<const MeshBody>& body) {
+    const auto [entry, is_new] = swept.try_emplace(body.get());
+    if (is_new) entry->second = SweptBody(machine, *body);
+    return entry->second;
+  };
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t k = i + 1; k < bodies.size(); ++k) {
       std::shared_ptr<const MeshBody> a = bodies[i];
@@ -77,13 +145,9 @@ std::vector<Pair> ScenePairs(const machine::Machine& machine, const MeshBodies& 
       pair.role = RoleOf(a->kind, b->kind);
       pair.names = {a->name, b->name};
       pair.defect = !a->defect.empty() ? DefectOf(*a) : DefectOf(*b);
-      // The bound under TCP wants the tool side as A.
-      const bool tcp = machine.five_axis.has_value() &&
-                       Rigid(machine, a->extent.link, machine.spindle_link) &&
-                       Rigid(machine, b->extent.link, machine.table_link);
-      if (!tcp && Reach(machine, *b, *a) < Reach(machine, *a, *b)) std::swap(a, b);
-      pair.mesh_a = std::move(a);
-      pair.b = std::move(b);
+      pair.swept = SweptPair(machine, pair, a, swept_of(b));
+      if (pair.swept == nullptr) pair.swept = SweptPair(machine, pair, b, swept_of(a));
+      ChooseA(machine, std::move(a), std::move(b), &pair);
       pairs.push_back(std::move(pair));
     }
   }

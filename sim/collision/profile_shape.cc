@@ -34,7 +34,6 @@ bool ConvexOutward(const ProfileElement& e) {
   return Cross(e.start - e.centre, e.end - e.centre) >= 0.0 && e.end.x() >= e.start.x();
 }
 
-// Upper hull (greater r) of points with ascending z, from the axis to the axis.
 std::vector<ProfileElement> HullElements(const std::vector<ProfileElement>& elements) {
   std::vector<Vector2d> points;
   for (const ProfileElement& e : elements) {
@@ -42,11 +41,19 @@ std::vector<ProfileElement> HullElements(const std::vector<ProfileElement>& elem
         e.arc ? CircumscribeArc(e, 1e-3) : std::vector<Vector2d>{e.start, e.end};
     points.insert(points.end(), more.begin(), more.end());
   }
-  std::stable_sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+  return ConvexHull(std::move(points)).elements;
+}
+
+}  // namespace
+
+machine::Profile ConvexHull(std::vector<Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   });
-  const Vector2d last(points.back().x(), 0.0);
-  points.push_back(last);
+  const double first = points.front().x();
+  const double last = points.back().x();
+  points.insert(points.begin(), Vector2d(first, 0.0));
+  points.emplace_back(last, 0.0);
   std::vector<Vector2d> hull;
   for (const Vector2d& p : points) {
     while (hull.size() >= 2) {
@@ -57,14 +64,12 @@ std::vector<ProfileElement> HullElements(const std::vector<ProfileElement>& elem
     }
     if (hull.empty() || (hull.back() - p).norm() > kTiny) hull.push_back(p);
   }
-  std::vector<ProfileElement> result;
+  machine::Profile result;
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
-    result.push_back(Straight(hull[i], hull[i + 1]));
+    result.elements.push_back(Straight(hull[i], hull[i + 1]));
   }
   return result;
 }
-
-}  // namespace
 
 std::vector<ProfileElement> ClosedElements(const machine::Profile& profile) {
   std::vector<ProfileElement> result;

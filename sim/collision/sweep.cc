@@ -16,7 +16,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFirstContact = 1e-3;    // of the motion
 constexpr double kFine = 0.02;            // mm, of a least clearance near the threshold
 constexpr double kDepthTolerance = 5e-3;  // mm
-constexpr double kBudget = 20.0;          // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
 constexpr int kDepthQueries = 300;        // a motion
 constexpr int kDepthEvaluations = 4000;   // a query
@@ -67,6 +66,18 @@ void PairSweep::Include(const Interval& clearance, const SourcePosition& where) 
     least_.upper = clearance.upper;
     least_where_ = where;
   }
+}
+
+void PairSweep::Accept(const Motion& motion, double clearance, bool track) {
+  known_ = {clearance, true, motion.q1()};
+  if (track) least_.lower = std::min(least_.lower, clearance);
+}
+
+double PairSweep::Need(const Watch& watch) const {
+  Sweep sweep;
+  sweep.watch = watch;
+  sweep.result.least = {kInfinity, kInfinity};
+  return Need(sweep);
 }
 
 // What an interval must be proven to clear. Above the contact level this serves reported numbers
@@ -182,8 +193,7 @@ std::optional<Interval> PairSweep::Query(const Span& span, double bound, Sweep* 
   goal.floor = std::max(need, engine_->floor());
   goal.stop_below = sweep->watch.contact;
   if (least_.upper < kInfinity) {
-    // Far above what is needed the number does not matter; it is a budget for the motions to come.
-    goal.stop_above = std::max({need + 2.0 * bound, 1.5 * least_.upper, 0.0}) + kBudget;
+    goal.stop_above = std::max(need, 0.0) + 2.0 * bound + engine_->Budget(need);
   }
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(X_BA, goal);

@@ -68,6 +68,12 @@ class PairSweep {
   std::optional<Interval> At(const motion::Motion& motion, const PathPoint& point, double enough);
 
   Eigen::Isometry3d Pose(const motion::Motion& motion, const PathPoint& point) const;
+  /// Takes over a proof from elsewhere: the motion is clear, at its end by `clearance` or more.
+  void Accept(const motion::Motion& motion, double clearance, bool track);
+  /// What Check would have to prove for the whole motion, as far as is known before it.
+  double Need(const Watch& watch) const;
+  /// Certified clearance at the end of the last motion.
+  double known_clearance() const { return known_.clearance; }
   /// Forgets what is known about the present pose (another tool, a new body).
   void Forget();
 

@@ -14,10 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Half the allowance along the profile and half around the axis: they add up at most.
-constexpr double kHalf = 0.49 * kSagitta;
-
-std::vector<Vector2d> Polyline(const machine::Profile& profile) {
+std::vector<Vector2d> Polyline(const machine::Profile& profile, double sagitta) {
   std::vector<Vector2d> points;
   const auto add = [&points](const Vector2d& p) {
     if (points.empty() || (points.back() - p).norm() > 1e-9) points.push_back(p);
@@ -25,7 +22,7 @@ std::vector<Vector2d> Polyline(const machine::Profile& profile) {
   for (const machine::ProfileElement& e : ClosedElements(profile)) {
     add(e.start);
     if (e.arc) {
-      for (const Vector2d& p : CircumscribeArc(e, kHalf)) add(p);
+      for (const Vector2d& p : CircumscribeArc(e, sagitta)) add(p);
     }
     add(e.end);
   }
@@ -34,11 +31,14 @@ std::vector<Vector2d> Polyline(const machine::Profile& profile) {
 
 }  // namespace
 
-machine::TriangleMesh Tessellate(const machine::Profile& profile, double length) {
-  const std::vector<Vector2d> points = Polyline(profile);
+machine::TriangleMesh Tessellate(const machine::Profile& profile, double length,
+                                 double sagitta) {
+  // Half the allowance along the profile and half around the axis: they add up at most.
+  const double half = 0.49 * sagitta;
+  const std::vector<Vector2d> points = Polyline(profile, half);
   double r_max = 0.0;
   for (const Vector2d& p : points) r_max = std::max(r_max, p.y());
-  const double half_angle = std::acos(r_max / (r_max + kHalf));
+  const double half_angle = std::acos(r_max / (r_max + half));
   const int sides = std::max(8, static_cast<int>(std::ceil(kPi / half_angle)));
   const double grow = 1.0 / std::cos(kPi / sides);
 

@@ -14,6 +14,7 @@ inline constexpr double kSagitta = 0.005;
 /// A closed mesh that encloses the solid of revolution, nowhere further than kSagitta from it:
 /// rings of tangent planes, arcs of the profile likewise. In frame S (gauge line, Z toward the
 /// tool): profile point (z, r) lies at z_S = `length` - z.
-machine::TriangleMesh Tessellate(const machine::Profile& profile, double length);
+machine::TriangleMesh Tessellate(const machine::Profile& profile, double length,
+                                 double sagitta = kSagitta);
 
 }  // namespace ncsim::collision

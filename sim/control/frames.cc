@@ -54,7 +54,7 @@ AxisValues ApplyG68(const Frame& frame, const AxisValues& point) {
 }
 
 Frames::Frames(const machine::Machine& machine, ControlKinematics kinematics)
-    : machine_(&machine), kinematics_(std::move(kinematics)), axes_(machine) {}
+    : kinematics_(std::move(kinematics)), axes_(machine) {}
 
 // Work offsets are measured with the rotary axes at 0 (a rotary offset beside DWO or TCP is refused
 // before it comes here), so program zero in the table follows from the offset's X, Y, Z alone.

@@ -78,7 +78,6 @@ class Frames {
   void Use(const std::shared_ptr<const Frame>& frame);
   const Eigen::Vector3d& DwoOrigin(const AxisValues& machine_rotaries);
 
-  const machine::Machine* machine_;
   ControlKinematics kinematics_;
   AxisMap axes_;
   // What is worked out once a frame.

@@ -118,8 +118,8 @@ void ApplySettings(const std::map<std::string, std::string>& settings, ControlDa
     control->settings[name] = text;
     if (name == "tcp_rapid") control->tcp_rapid = text;
     const std::vector<Setting>& known = SettingsOf(control->dialect);
-    const auto it = std::find_if(known.begin(), known.end(),
-                                 [&](const Setting& setting) { return setting.name == name; });
+    auto it = known.begin();
+    while (it != known.end() && it->name != name) ++it;
     if (it == known.end()) continue;
     const bool numeric = it->kind == SettingKind::kLength || it->kind == SettingKind::kAngle ||
                          it->kind == SettingKind::kNumber;

@@ -81,20 +81,21 @@ class Umc750Verdict : public ::testing::Test {
 
   void WriteJob() {
     std::ofstream job(folder_ / "part.nc.job.toml");
-    const auto tool = [&](int number, const char* name, const char* cutter,
+    const auto tool = [&](int number, const char* name, const char* cutter, double shank,
                           const std::string& holder) {
       job << "[[tool]]\nnumber = " << number << "\nname = \"" << name << "\"\nlength = 180.0\n"
-          << "cutter = " << cutter << "\nholder = " << holder << "\n";
+          << "cutter = " << cutter << "\nshank = [ { lower = " << shank << ", upper = " << shank
+          << ", height = 30.0 } ]\nholder = " << holder << "\n";
     };
     job << "schema = 1\nunits = \"mm\"\n[offsets]\nG54 = { on = \"workpiece_mount\", xyz = "
         << scene_.part_xyz << " }\n";
-    tool(1, "MILL", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }",
+    tool(1, "MILL", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }", 19.05,
          "\"CAT40-ER32-100\"");
-    tool(2, "MILL_MULTI_AXIS", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }",
+    tool(2, "MILL_MULTI_AXIS", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }", 19.05,
          "\"CAT40-ER32-100\"");
     tool(3, "BALL_MILL",
          "{ type = \"ball\", diameter = 5.9944, corner_radius = 2.9972, flute_length = 30.0 }",
-         scene_.holder_t3);
+         5.9944, scene_.holder_t3);
     job << "[[fixture]]\nname = \"riser\"\ncylinder = { diameter = " << scene_.riser_diameter
         << ", height = 149.9 }\nat = { on = \"workpiece_mount\" }\n"
         << scene_.body << "[check]\npart_tolerance = 0.15\n"

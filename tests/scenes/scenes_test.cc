@@ -81,13 +81,17 @@ TEST_P(CrashGallery, IsFoundAtItsLine) {
       std::regex_search(outcome.text, std::regex(where + "[^\\n]*\\[" + GetParam() + "\\]")))
       << outcome.text;
   const Severity severity = Info(*RuleFromId(GetParam())).severity;
-  if (severity == Severity::kError) EXPECT_EQ(outcome.code, app::kExitFail) << outcome.text;
-  if (severity == Severity::kUnproven) EXPECT_EQ(outcome.code, app::kExitUnproven) << outcome.text;
+  if (severity == Severity::kError) {
+    EXPECT_EQ(outcome.code, app::kExitFail) << outcome.text;
+  }
+  if (severity == Severity::kUnproven) {
+    EXPECT_EQ(outcome.code, app::kExitUnproven) << outcome.text;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryProgram, CrashGallery, ::testing::ValuesIn(Gallery()),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& test) {
+                           std::string name = test.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });

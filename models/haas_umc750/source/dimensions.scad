@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every dimension of the model, mm. PUBLISHED numbers are Haas'; all others are NOMINAL (see ../README.md).
+// Every dimension of the model, mm. What is PUBLISHED, and where, and what is NOMINAL: see ../README.md.
 //
 // Machine frame: the origin is where the gauge point stands with all axes at machine zero, so that a point's coordinates
 // are the machine values that bring the gauge point there. X right, Y to the column, Z up, seen from the operator.
@@ -7,12 +7,14 @@
 // --- PUBLISHED -------------------------------------------------------------------------------------------------------
 travel_min = [-762, -508, -444.5];
 travel_max = [0, 0, 63.5];
-pivot = [-381, -254, -495.7];      // where the B and C axes meet (settings 255-257)
 platter_drop = 50.8;               // B axis to platter face
 platter_d = 500;
 slot_count = 7;
 slot_pitch = 63;
 slot_width = 16;
+
+// --- NOMINAL: rotary centre ------------------------------------------------------------------------------------------
+pivot = [-381, -254, -495.7];      // where the B and C axes meet (settings 255-257): each machine has its own
 
 // --- NOMINAL: table --------------------------------------------------------------------------------------------------
 // Heights from the B axis, y from the pivot.
