@@ -13,6 +13,7 @@ namespace {
 using motion::Motion;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kSweptPoses = 6;  // worth a try, no more
 // A contact that the kernel finds deeper than this must be seen by FCL on circumscribed meshes too.
 constexpr double kConfirmDepth = 0.02;
 
@@ -104,6 +105,7 @@ bool PairMonitor::ClearWhenSwept(const Motion& motion, const Watch& watch) {
   Watch whole;
   whole.contact = sweep_.Need(watch);
   whole.find_first = false;
+  whole.max_poses = kSweptPoses;
   const SweepResult result = swept_->Check(motion, whole);
   if (result.contact || result.uncertified) {
     swept_wait_ = swept_pause_;

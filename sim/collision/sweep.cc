@@ -242,7 +242,8 @@ void PairSweep::Cover(const Span& whole, Sweep* sweep) {
     const PathPoint middle = Middle(span);
     const double bound = motion::RelativeBound(*sweep->motion, path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance = Query(span, bound, sweep);
-    if (!clearance.has_value() || !std::isfinite(bound)) {
+    if (!clearance.has_value() || !std::isfinite(bound) ||
+        ++sweep->poses > sweep->watch.max_poses) {
       result.uncertified = true;
       return;
     }

@@ -29,6 +29,8 @@ struct Watch {
       0.0;  ///< From here down within 0.02 mm, above within a quarter of what is seen.
   /// A least clearance above this is of no interest (0 for cuts: only depths count).
   double track_ceiling = std::numeric_limits<double>::infinity();
+  /// Gives up (uncertified) after this many poses; for attempts that need not succeed.
+  int max_poses = std::numeric_limits<int>::max();
   bool find_first = true;  ///< On contact, find where it begins; else any pose in contact will do.
 };
 
@@ -99,6 +101,7 @@ class PairSweep {
     SweepResult result;
     double end = std::numeric_limits<double>::infinity();  // certified at the motion's end
     int refinements = 0;
+    int poses = 0;
   };
   double Need(const Sweep& sweep) const;
   bool Start(Sweep* sweep);

@@ -9,7 +9,7 @@
 namespace ncsim::control {
 
 struct Contour::State {
-  State(ContourOptions options, Out sink, const Report& report)
+  State(const ContourOptions& options, Out sink, const Report& report)
       : out(std::move(sink)),
         comp(
             options, [this](const Command& c) { out(c); }, report),
@@ -20,7 +20,7 @@ struct Contour::State {
   CornerStage corners;
 };
 
-Contour::Contour(ContourOptions options, Out out, Report report)
+Contour::Contour(const ContourOptions& options, Out out, const Report& report)
     : state_(std::make_unique<State>(options, std::move(out), report)) {}
 
 Contour::~Contour() = default;

@@ -23,7 +23,7 @@ class Contour {
  public:
   using Out = std::function<void(const Command&)>;
   using Report = std::function<void(Finding)>;
-  Contour(ContourOptions options, Out out, Report report);
+  Contour(const ContourOptions& options, Out out, const Report& report);
   ~Contour();
 
   /// `start` is the program position before the first command; later ones are chained, except after

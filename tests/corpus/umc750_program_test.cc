@@ -166,7 +166,6 @@ TEST_F(Umc750Program, HeldRapidsStayWithinTravelTrackedOnesDoNot) {
   job_.control["tcp_rapid"] = "track";
   Run();
   Overruns(*machine_, motions_, &lines);
-  for (auto& [l, n] : lines) printf("L%d %d\n", l, n);
   EXPECT_FALSE(lines.empty());
 }
 
