@@ -25,7 +25,7 @@ const collision::PairClearance* NearestWithinMargin(
   const collision::PairClearance* nearest = nullptr;
   for (const collision::PairClearance& clearance : clearances) {
     // Written so that a number that is not known counts as near.
-    if (clearance.seen_mm >= kNominalMargin || !concerns(clearance)) continue;
+    if (clearance.proven_mm >= machine::kNominalMargin || !concerns(clearance)) continue;
     if (nearest == nullptr || clearance.seen_mm < nearest->seen_mm) nearest = &clearance;
   }
   return nearest;
@@ -84,7 +84,7 @@ std::vector<Assumption> NominalToolChange(const machine::Machine& machine,
   if (!machine.control.tool_change_nominal || poses.poses().motions.empty()) return {};
   if (machine.control.tool_change_pose.empty()) return {};
   machine::CheckSettings settings;
-  settings.clearance = kNominalMargin;
+  settings.clearance = machine::kNominalMargin;
   collision::CollisionChecker checker(machine, scene, tools, settings);
   checker.Check(poses.poses());
   const collision::CollisionResult result = checker.Finish();

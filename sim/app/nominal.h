@@ -15,8 +15,6 @@
 
 namespace ncsim::app {
 
-inline constexpr double kNominalMargin = 10.0;  // mm
-
 /// "nominal shapes", where the model's shapes are nominal and one of them was seen nearer than the
 /// margin to something.
 std::vector<Assumption> NominalShapes(const machine::Machine& machine, const machine::Scene& scene,

@@ -32,8 +32,7 @@ void AssumeRates(const machine::Machine& machine, RunLog* log) {
   log->Assume("rapid rates", text, false);
 }
 
-// A 0 in setting 85 or in the diameters is "not stated": then corners are sharp, a degree is a
-// unit.
+// A 0 in the diameters is "not stated": then a degree is a unit.
 MotionOptions ToMotionOptions(const HaasSettings& settings) {
   MotionOptions options;
   options.rapid = settings.rapid;

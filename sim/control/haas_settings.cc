@@ -11,6 +11,9 @@
 namespace ncsim::control {
 namespace {
 
+// Haas NGC Mill Operator's Manual 2017, setting 85: default .0250 in.
+constexpr double kDefaultCornerRounding = 0.025 * kMmPerInch;
+
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 // The number after a G at `at`, and that only: G20, G020 and g20 are 20, G200 and G20.1 are not.
@@ -165,8 +168,14 @@ HaasSettings ReadHaasSettings(const SettingSource& source, const machine::Machin
   settings.diameter_d = reader.Text("setting 40") != "radius";
   settings.g68_angle = Radians(reader.Number(72, 0.0));
   settings.g68_incremental = reader.Quiet("setting 73", false);
-  settings.corner_rounding = reader.Number(85, 0.0);
-  if (!source.Number("setting 85")) log->Assume("setting 85", "0: corners are not rounded", false);
+  settings.corner_rounding = reader.Number(85, kDefaultCornerRounding);
+  if (!source.Number("setting 85")) {
+    log->Assume(
+        "setting 85",
+        "0.0250 in (0.635 mm): holder, shank and machine must clear by this in feeds; how far "
+        "the flutes round a corner of the part is not checked",
+        false);
+  }
   settings.tool_change_together = reader.Quiet("setting 247", false);
   settings.rotary_centre = ReadCentre(source, machine);
   for (std::size_t i = 0; i < settings.tool_change_mid.size(); ++i) {

@@ -48,6 +48,8 @@ struct CheckSettings {
   double part_tolerance = 0.1;
   double gouge_tolerance = 0.25;
   GougeMode gouge = GougeMode::kError;
+  /// Not a key of the job: least clearances below this (mm) are told to 0.02 mm in any case.
+  double exact_below = 0.0;
 };
 
 struct Job {

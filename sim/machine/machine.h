@@ -67,6 +67,9 @@ struct LinkPair {
   std::string reason;  ///< Adjacent, User, Always.
 };
 
+/// Nominal shapes that come closer than this to anything, mm, are an assumption that places metal.
+inline constexpr double kNominalMargin = 10.0;
+
 struct Machine {
   std::string name;
   std::string path;  ///< The URDF file.

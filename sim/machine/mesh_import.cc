@@ -181,8 +181,8 @@ TriangleMesh ImportInChild(const std::string& bytes, const std::string& extensio
 
 TriangleMesh ImportMesh(const std::string& bytes, const std::string& extension,
                         std::string* defect) {
-  return extension == "stl" ? Import(bytes, extension, defect)
-                            : ImportInChild(bytes, extension, defect);
+  const bool binary_stl = extension == "stl" && !bytes.starts_with("solid");
+  return binary_stl ? Import(bytes, extension, defect) : ImportInChild(bytes, extension, defect);
 }
 
 }  // namespace ncsim::machine

@@ -25,9 +25,10 @@ inline std::string CorpusFile(const std::string& name) {
   return corpus == nullptr || *corpus == '\0' ? "" : std::string(corpus) + "/" + name;
 }
 
-#define NCSIM_REQUIRE_CORPUS()                                                                  \
-  if (CorpusFile("").empty()) GTEST_SKIP() << "NCSIM_CORPUS is not set: third-party files not " \
-                                              "read"
+#define NCSIM_REQUIRE_CORPUS()                                      \
+  if (CorpusFile("").empty())                                       \
+  GTEST_SKIP() << "NCSIM_CORPUS is not set: third-party files not " \
+                  "read"
 
 /// What was reported, without folders: "model.urdf:4: error: ...".
 inline std::vector<std::string> Reported(const Diagnostics& diagnostics) {

@@ -14,7 +14,6 @@
 namespace ncsim::conformance {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const std::string kPage = std::string(NCSIM_SOURCE_DIR) + "/docs/conformance.md";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory stays flat with the length of a program: what a hundred times more blocks adds in private memory is bounded by a
-// few megabytes (the text itself is mapped).
+// Memory stays flat with the length of a program: what a hundred times more blocks adds in private
+// memory is bounded by a few megabytes (the text itself is mapped).
 #include <gtest/gtest.h>
 
 #include <filesystem>
