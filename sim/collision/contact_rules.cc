@@ -14,7 +14,7 @@ void WatchClearance(const motion::Motion& motion, const machine::CheckSettings& 
   watch->clearance = settings.clearance;
   watch->rounding = motion.facts.corner_rounding;
   watch->track = true;
-  watch->track_below = 2.0 * settings.clearance;
+  watch->track_below = std::max(2.0 * settings.clearance, settings.exact_below);
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ class MeshEngine final : public PairEngine {
     const std::optional<bool> hit = Collide(a_->fcl, b_->fcl, X_BA);
     return !hit.has_value() || *hit || Contained(X_BA);
   }
-  // FCL is fast where the cut lies well below the distance, and ten to a hundred times slower where it does not.
+  // FCL is fast where the cut lies well below the distance, and ten to a hundred times slower where
+  // it does not.
   double Budget(double need) const override { return std::max(1.0, 0.15 * need); }
   bool has_depth() const override { return false; }
   double floor() const override { return 0.0; }

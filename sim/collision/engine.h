@@ -29,7 +29,8 @@ class PairEngine {
   /// the other.
   virtual bool Confirms(const Eigen::Isometry3d& X_BA) = 0;
 
-  /// How far beyond what is needed a clearance is worth computing, mm: it is a budget for the motions to come.
+  /// How far beyond what is needed a clearance is worth computing, mm: it is a budget for the
+  /// motions to come.
   virtual double Budget(double need) const = 0;
   virtual bool has_depth() const = 0;
   /// The least value that Clearance or Solid can have; minus the greatest depth.

@@ -94,8 +94,8 @@ void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
   }
 }
 
-// Most motions of most pairs of links are settled by the swept pair, without a look at the rotary joint that turns most. It
-// is left alone for a while where it is not good enough.
+// Most motions of most pairs of links are settled by the swept pair, without a look at the rotary
+// joint that turns most. It is left alone for a while where it is not good enough.
 bool PairMonitor::ClearWhenSwept(const Motion& motion, const Watch& watch) {
   if (swept_ == nullptr || !sweep_.has_least()) return false;
   if (swept_wait_ > 0) {
@@ -198,10 +198,10 @@ void PairMonitor::Deepen(const Motion& motion, bool track, Run* run) {
   if (!engine_->has_depth()) return;
   const double known = run->blocks > 1 ? run->least : kInfinity;
   PathPoint at;
-  const Interval depth = sweep_.Deepest(motion, run->with_lag, known, &at);
-  if (track) sweep_.Include({depth.lower, std::min(depth.upper, run->least)}, motion.where);
-  if (depth.upper < run->least) run->least = depth.upper;
-  if (run->blocks == 1 && depth.upper < -kConfirmDepth) Confirm(motion, run->number, at);
+  const double depth = sweep_.Deepest(motion, run->with_lag, known, &run->depth_budget, &at);
+  run->least = std::min(run->least, depth);
+  if (track) sweep_.Include({engine_->floor(), run->least}, motion.where);
+  if (run->blocks == 1 && depth < -kConfirmDepth) Confirm(motion, run->number, at);
 }
 
 void PairMonitor::Confirm(const Motion& motion, std::uint64_t number, const PathPoint& at) {

@@ -50,6 +50,7 @@ class PairMonitor {
     std::string where_text;
     double least = std::numeric_limits<double>::infinity();
     bool with_lag = false;
+    int depth_budget = 3000;  ///< Poses to look for the deepest one.
     int blocks = 0;
     SourcePosition last;
   };

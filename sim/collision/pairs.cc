@@ -56,8 +56,8 @@ void ChooseA(const machine::Machine& machine, std::shared_ptr<const MeshBody> a,
   pair->b = std::move(b);
 }
 
-// What `body` sweeps when the rotary joint that its link hangs on turns, as a body of the joint's parent: the convex solid
-// of revolution around all of it. Null where that joint is not rotary.
+// What `body` sweeps when the rotary joint that its link hangs on turns, as a body of the joint's
+// parent: the convex solid of revolution around all of it. Null where that joint is not rotary.
 std::shared_ptr<const MeshBody> SweptBody(const machine::Machine& machine, const MeshBody& body) {
   const std::vector<int> moving = machine.tree.MovingJointsTo(body.extent.link);
   if (moving.empty() || body.tree.empty()) return nullptr;

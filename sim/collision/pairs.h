@@ -30,8 +30,9 @@ struct Pair {
   std::shared_ptr<const MeshBody> mesh_a;
   std::shared_ptr<const MeshBody> b;
   std::vector<std::string> names;
-  /// The same pair with one body blown up to what it sweeps about its own rotary joint, or null. Its clearance is never more
-  /// than the pair's, and that joint does not move it: a turning platter costs it nothing.
+  /// The same pair with one body blown up to what it sweeps about its own rotary joint, or null.
+  /// Its clearance is never more than the pair's, and that joint does not move it: a turning
+  /// platter costs it nothing.
   std::shared_ptr<const Pair> swept;
   std::string defect;  ///< Non-empty: the pair cannot be certified, and why.
 

@@ -92,7 +92,8 @@ class ProfileShape {
 /// with arcs that are not convex outward replaced by their chord (which encloses them).
 std::vector<machine::ProfileElement> ClosedElements(const machine::Profile& profile);
 
-/// The least convex solid of revolution around points (z, r), of which there is at least one; without arcs.
+/// The least convex solid of revolution around points (z, r), of which there is at least one;
+/// without arcs.
 machine::Profile ConvexHull(std::vector<Eigen::Vector2d> points);
 
 /// Points of a polyline around `element` (an arc convex outward): tangents, so that it encloses the

@@ -15,10 +15,10 @@ using motion::Span;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFirstContact = 1e-3;    // of the motion
 constexpr double kFine = 0.02;            // mm, of a least clearance near the threshold
-constexpr double kDepthTolerance = 5e-3;  // mm
+constexpr double kDepthTolerance = 6e-3;  // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
 constexpr int kDepthQueries = 300;        // a motion
-constexpr int kDepthEvaluations = 4000;   // a query
+constexpr int kDepthEvaluations = 2000;   // a query
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
 bool SamePose(const motion::JointVector& a, const motion::JointVector& b) {
@@ -193,7 +193,9 @@ std::optional<Interval> PairSweep::Query(const Span& span, double bound, Sweep* 
   goal.floor = std::max(need, engine_->floor());
   goal.stop_below = sweep->watch.contact;
   if (least_.upper < kInfinity) {
-    goal.stop_above = std::max(need, 0.0) + 2.0 * bound + engine_->Budget(need);
+    // Inside a motion a proof is enough; at its end, what is left serves the motions to come.
+    goal.stop_above = span.s1 < 1.0 ? need + 1.25 * bound + kContactResolution
+                                    : std::max(need, 0.0) + 2.0 * bound + engine_->Budget(need);
   }
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(X_BA, goal);
@@ -269,36 +271,41 @@ void PairSweep::Cover(const Span& whole, Sweep* sweep) {
   }
 }
 
-std::optional<Interval> PairSweep::At(const Motion& motion, const PathPoint& point, double enough) {
+std::optional<Interval> PairSweep::At(const Motion& motion, const PathPoint& point, double enough,
+                                      double gap) {
   DistanceGoal goal;
   goal.stop_above = enough;
+  goal.gap = std::max(goal.gap, gap);
   goal.max_evaluations = kDepthEvaluations;
   ++queries_;
   return engine_->Solid(Pose(motion, point), goal);
 }
 
-Interval PairSweep::Deepest(const Motion& motion, bool with_lag, double known, PathPoint* at) {
+double PairSweep::Deepest(const Motion& motion, bool with_lag, double known, int* budget,
+                          PathPoint* at) {
   struct Piece {
-    double lower;
+    double estimate;
     Span span;
-    bool operator<(const Piece& o) const { return lower > o.lower; }
+    bool operator<(const Piece& o) const { return estimate > o.estimate; }
   };
-  Interval best{kInfinity, kInfinity};
+  double best = kInfinity;
   double limit = known;  // nothing above this is of interest
   std::vector<Piece> heap;
   int queries = 0;
   const auto look = [&](const Span& span) {
     const PathPoint middle = Middle(span);
     const double bound = motion::RelativeBound(motion, path_, span, middle.s, middle.lag);
-    const std::optional<Interval> clearance = At(motion, middle, limit - kDepthTolerance + bound);
+    const std::optional<Interval> clearance =
+        At(motion, middle, limit - kDepthTolerance + bound, 0.25 * bound);
     ++queries;
     if (!clearance.has_value()) return;
-    if (clearance->upper < best.upper) {
-      best.upper = clearance->upper;
+    if (clearance->upper < best) {
+      best = clearance->upper;
       *at = middle;
-      limit = std::min(limit, best.upper);
+      limit = std::min(limit, best);
     }
-    heap.push_back({std::max(clearance->lower - bound, engine_->floor() - kDepthTolerance), span});
+    // A depth is a reported number, no proof: its witness is what counts.
+    heap.push_back({std::max(clearance->upper - bound, engine_->floor()), span});
     std::push_heap(heap.begin(), heap.end());
   };
   Span whole = motion::Whole(motion);
@@ -306,21 +313,17 @@ Interval PairSweep::Deepest(const Motion& motion, bool with_lag, double known, P
   look(whole);
   // The ends are where a plunge is deepest.
   look({whole.s1, whole.s1, whole.lag0, whole.lag0});
-  while (!heap.empty() && heap.front().lower < limit - kDepthTolerance &&
-         limit > engine_->floor() + kDepthTolerance && queries < kDepthQueries) {
+  while (!heap.empty() && heap.front().estimate < limit - kDepthTolerance &&
+         queries < std::min(kDepthQueries, *budget)) {
     const Span span = heap.front().span;
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
-    if (span.s1 <= span.s0 && span.lag1 <= span.lag0) {
-      best.lower = std::min(best.lower, best.upper - kDepthTolerance);
-      continue;
-    }
+    if (span.s1 <= span.s0 && span.lag1 <= span.lag0) continue;
     const auto [first, second] = Halve(motion, path_, span);
     look(first);
     look(second);
   }
-  best.lower = std::min(
-      {best.lower, limit - kDepthTolerance, heap.empty() ? kInfinity : heap.front().lower});
+  *budget -= queries;
   return best;
 }
 

@@ -61,13 +61,16 @@ class PairSweep {
   /// As Check, but leaves the pair where it was before the motion.
   SweepResult Probe(const motion::Motion& motion, const Watch& watch);
 
-  /// Deepest pose of a motion that is known to be in contact, to 0.01 mm: at lag 0, or with all
-  /// lags. `known` (negative) is the depth that is not worth looking for. `upper` is +inf where
+  /// Clearance (negative) at the deepest pose of a motion that is known to be in contact, to 0.01
+  /// mm: at lag 0, or with all lags. `known` is the depth that is not worth looking for. `budget`
+  /// counts down poses; without one left, only the middle and the end are looked at. +inf where
   /// nothing deeper than `known` was found.
-  Interval Deepest(const motion::Motion& motion, bool with_lag, double known, PathPoint* at);
+  double Deepest(const motion::Motion& motion, bool with_lag, double known, int* budget,
+                 PathPoint* at);
 
   /// Clearance of the solids at a pose of the motion, not told apart above `enough`.
-  std::optional<Interval> At(const motion::Motion& motion, const PathPoint& point, double enough);
+  std::optional<Interval> At(const motion::Motion& motion, const PathPoint& point, double enough,
+                             double gap = 0.0);
 
   Eigen::Isometry3d Pose(const motion::Motion& motion, const PathPoint& point) const;
   /// Takes over a proof from elsewhere: the motion is clear, at its end by `clearance` or more.

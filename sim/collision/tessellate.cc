@@ -31,8 +31,7 @@ std::vector<Vector2d> Polyline(const machine::Profile& profile, double sagitta) 
 
 }  // namespace
 
-machine::TriangleMesh Tessellate(const machine::Profile& profile, double length,
-                                 double sagitta) {
+machine::TriangleMesh Tessellate(const machine::Profile& profile, double length, double sagitta) {
   // Half the allowance along the profile and half around the axis: they add up at most.
   const double half = 0.49 * sagitta;
   const std::vector<Vector2d> points = Polyline(profile, half);

@@ -209,9 +209,8 @@ TEST_F(Umc750Verdict, ToolChangePoseIsClearWithLinearRapids) {
   EXPECT_FALSE(HasRule(report, "rapid-contact")) << Errors(report);
 }
 
-@ @WIDE @ @
-    // Haas NGC Mill Operator's Manual 2017, G234: cannot be used together with G254.
-    TEST_F(Umc750Verdict, G254LeftActiveMeetsG234) {
+// Haas NGC Mill Operator's Manual 2017, G234: cannot be used together with G254.
+TEST_F(Umc750Verdict, G254LeftActiveMeetsG234) {
   Blank(1653);  // N8070 G255
   const json report = Check(1, {"--interpret-only"});
   EXPECT_TRUE(Has(report, "control-alarm", 1670)) << Errors(report);
