@@ -180,7 +180,7 @@ TEST_F(CheckCommandTest, ClearanceOfTheCommandLineOverridesTheJobs) {
   EXPECT_EQ(CheckWithJob({program, "--assume", "nominal shapes"}), kExitPass);
   EXPECT_THAT(out_, Not(HasSubstr("[near-miss]")));
   EXPECT_EQ(CheckWithJob({program, "--assume", "nominal shapes", "--clearance", "6"}), kExitPass);
-  EXPECT_THAT(out_, HasSubstr("warning: flutes of T1 comes within 5 mm of c_platter"));
+  EXPECT_THAT(out_, HasSubstr("warning: flutes of T1 come within 5 mm of c_platter"));
 }
 
 TEST_F(CheckCommandTest, ANominalShapeWithinTenMillimetresIsAnAssumption) {

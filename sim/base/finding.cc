@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sim/base/text.h"
+
 namespace ncsim {
 
 std::string_view ToString(Severity severity) {
@@ -50,6 +52,14 @@ std::optional<Rule> RuleFromId(std::string_view id) {
 int SourceFiles::Add(std::string name) {
   names_.push_back(std::move(name));
   return static_cast<int>(names_.size()) - 1;
+}
+
+std::string ToString(const AxisReadout& axes) {
+  std::string text;
+  for (const auto& [letter, value] : axes) {
+    text.append(text.empty() ? "" : " ").append(1, letter).append(Fixed(value, 3));
+  }
+  return text;
 }
 
 Finding MakeFinding(Rule rule, SourcePosition where, std::string message) {

@@ -47,6 +47,11 @@ class SourceFiles {
   std::vector<std::string> names_;
 };
 
+/// Axis letters and NC values (mm, deg), in the machine's order.
+using AxisReadout = std::vector<std::pair<char, double>>;
+/// "X-81.280 Y0.000 B-20.000"
+std::string ToString(const AxisReadout& axes);
+
 struct Finding {
   Rule rule = Rule::kSyntax;
   Severity severity = Severity::kError;
@@ -54,8 +59,7 @@ struct Finding {
   std::string message;                 ///< Lower case, no full stop, value and limit with units.
   std::vector<std::string> bodies;     ///< The pair, for contacts and near misses.
   std::optional<double> clearance_mm;  ///< Minus the depth for a contact.
-  std::vector<std::pair<char, double>>
-      axes;  ///< Axis letter and NC value (mm, deg) at the first contact.
+  AxisReadout axes;                    ///< At the first contact.
   std::optional<double> time_s;
 };
 

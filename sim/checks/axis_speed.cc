@@ -4,10 +4,10 @@
 #include <limits>
 #include <variant>
 
+#include "sim/base/run_finding.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
-#include "sim/checks/run_finding.h"
 
 namespace ncsim::checks {
 namespace {
@@ -50,7 +50,7 @@ class AxisSpeedCheck : public Check {
       worst_ = demand.ratio;
       run_.finding().message = Message(motion, *demand.axis, TipPathLength(*curve), demand.ratio);
     }
-    run_.Add(motion);
+    run_.Add(motion.where);
   }
 
   void Finish(std::vector<Finding>* findings) override { run_.Close(findings); }

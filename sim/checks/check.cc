@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/checks/check.h"
 
-#include "sim/base/units.h"
+#include <utility>
 
 namespace ncsim::checks {
 
@@ -17,18 +17,12 @@ std::vector<std::unique_ptr<Check>> AllChecks(const machine::Machine& machine) {
   return checks;
 }
 
-std::vector<std::pair<char, double>> AxisReadout(const machine::Machine& machine,
-                                                 const motion::JointVector& q) {
-  std::vector<std::pair<char, double>> readout;
-  readout.reserve(machine.axes.size());
-  for (const machine::Axis& axis : machine.axes) {
-    readout.emplace_back(axis.letter, axis.rotary ? Degrees(q[axis.joint]) : q[axis.joint]);
-  }
-  return readout;
-}
-
-bool IsFeed(const motion::Motion& motion) {
-  return motion.kind == motion::MotionKind::kFeed || motion.kind == motion::MotionKind::kArc;
+Finding FindingAt(const machine::Machine& machine, Rule rule, const motion::Motion& motion,
+                  double s, std::string message) {
+  Finding finding = MakeFinding(rule, motion.where, std::move(message));
+  finding.axes = machine.Readout(motion.At(s));
+  finding.time_s = motion.start_time + motion.ElapsedTime(s);
+  return finding;
 }
 
 }  // namespace ncsim::checks

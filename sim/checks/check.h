@@ -35,11 +35,8 @@ std::unique_ptr<Check> RotaryUnderTcp(const machine::Machine& machine);
 /// All of them, in the order in which they report.
 std::vector<std::unique_ptr<Check>> AllChecks(const machine::Machine& machine);
 
-/// NC axis letters and values (mm, deg) at q, for Finding::axes.
-std::vector<std::pair<char, double>> AxisReadout(const machine::Machine& machine,
-                                                 const motion::JointVector& q);
-
-/// A feed or an arc: cutting motion, as distinct from rapids, dwells and tool changes.
-bool IsFeed(const motion::Motion& motion);
+/// A finding at parameter s of a motion, with the axes' positions and the time there.
+Finding FindingAt(const machine::Machine& machine, Rule rule, const motion::Motion& motion,
+                  double s, std::string message);
 
 }  // namespace ncsim::checks

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/base/run_finding.h"
 #include "sim/checks/check.h"
-#include "sim/checks/run_finding.h"
 
 namespace ncsim::checks {
 namespace {
@@ -20,7 +20,7 @@ class ClampCheck : public Check {
                            "a rotary axis feeds with its brake commanded on: the control releases "
                            "it and sets it again in every block"));
     }
-    run_.Add(motion);
+    run_.Add(motion.where);
   }
 
   void Finish(std::vector<Finding>* findings) override { run_.Close(findings); }

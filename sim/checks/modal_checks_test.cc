@@ -142,7 +142,7 @@ TEST_F(ModalChecksTest, RotaryUnderTcpIsOneFindingAProgram) {
 }
 
 TEST_F(ModalChecksTest, ReadoutIsInMillimetresAndDegrees) {
-  const auto readout = AxisReadout(machine_, Axes(-1.0, -2.0, -3.0, 4.0, 5.0));
+  const auto readout = machine_.Readout(Axes(-1.0, -2.0, -3.0, 4.0, 5.0));
   ASSERT_THAT(readout, SizeIs(5));
   EXPECT_EQ(readout[0].first, 'X');
   EXPECT_DOUBLE_EQ(readout[0].second, -1.0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "sim/base/run_finding.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
-#include "sim/checks/run_finding.h"
 
 namespace ncsim::checks {
 namespace {
@@ -29,7 +29,7 @@ class RotaryUnderTcpCheck : public Check {
                                  " deg while TCP is active: the tip does not hold its point on "
                                  "the way"));
       }
-      run_.Add(motion);
+      run_.Add(motion.where);
       return;
     }
   }

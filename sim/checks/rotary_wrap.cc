@@ -4,10 +4,10 @@
 #include <optional>
 #include <variant>
 
+#include "sim/base/run_finding.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
-#include "sim/checks/run_finding.h"
 
 namespace ncsim::checks {
 namespace {
@@ -47,7 +47,7 @@ class RotaryWrapCheck : public Check {
           FindingAt(*machine_, Rule::kRotaryWrap, motion, 0.0, Message(motion, *turning, *nearer)));
       run_.finding().severity = severity;
     }
-    run_.Add(motion);
+    run_.Add(motion.where);
   }
 
   void Finish(std::vector<Finding>* findings) override { run_.Close(findings); }

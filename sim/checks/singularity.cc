@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/run_finding.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
-#include "sim/checks/run_finding.h"
 
 namespace ncsim::checks {
 namespace {
@@ -34,7 +34,7 @@ class SingularityCheck : public Check {
               " deg in a feed under TCP with the tool " +
               Fixed(Degrees(LeastAngle(motion, *swinging)), 3) + " deg from that axis"));
     }
-    run_.Add(motion);
+    run_.Add(motion.where);
   }
 
   void Finish(std::vector<Finding>* findings) override { run_.Close(findings); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/base/run_finding.h"
 #include "sim/checks/check.h"
-#include "sim/checks/run_finding.h"
 
 namespace ncsim::checks {
 namespace {
@@ -19,7 +19,7 @@ class SpindleStoppedCheck : public Check {
       run_.Start(FindingAt(*machine_, Rule::kSpindleStopped, motion, 0.0,
                            "feed with the spindle stopped"));
     }
-    run_.Add(motion);
+    run_.Add(motion.where);
   }
 
   void Finish(std::vector<Finding>* findings) override { run_.Close(findings); }

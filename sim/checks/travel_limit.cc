@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "sim/base/run_finding.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
 #include "sim/checks/excursion.h"
-#include "sim/checks/run_finding.h"
 
 namespace ncsim::checks {
 namespace {
@@ -40,7 +40,8 @@ std::string Message(Side& side) {
   const double reached = shown(side.limit + side.sense * side.worst);
   return std::string("axis ") + side.axis->letter + " reaches " +
          Number(reached, shown(side.worst)).append(unit) + ", limit " +
-         Short(shown(side.limit)).append(unit) + "; it leaves at " + AxesText(side.run.finding());
+         Short(shown(side.limit)).append(unit) + "; it leaves at " +
+         ToString(side.run.finding().axes);
 }
 
 class TravelLimitCheck : public Check {
@@ -92,7 +93,7 @@ class TravelLimitCheck : public Check {
               FindingAt(*machine_, Rule::kTravelLimit, motion, excursion.s, std::string()));
           side.worst = 0.0;
         }
-        side.run.Add(motion);
+        side.run.Add(motion.where);
         side.worst = std::max(side.worst, excursion.worst);
         return;
       case Excursion::Outcome::kUnproven:
@@ -103,7 +104,7 @@ class TravelLimitCheck : public Check {
                                             " runs so close to its limit that staying inside "
                                             "could not be proven"));
         }
-        side.unproven.Add(motion);
+        side.unproven.Add(motion.where);
         return;
     }
   }

@@ -26,6 +26,7 @@ struct CollisionChecker::State {
         const machine::CheckSettings& check)
       : machine(&machine_data), tools(&tool_table), settings(check) {}
 
+  bool Trusted(const Pair& pair);
   BlankState* BlankOf(const Pair& pair);
   Monitors Watch(std::vector<Pair> pairs);
   void ChangeTool(const motion::Motion& motion);
@@ -42,8 +43,20 @@ struct CollisionChecker::State {
   Monitors* in_spindle = nullptr;
   int tool = 0;
   std::set<int> unknown_tools;
+  std::set<const MeshBody*> broken;
+  std::vector<const MeshBody*> newly_broken;  // not reported yet
   std::uint64_t number = 0;
 };
+
+bool CollisionChecker::State::Trusted(const Pair& pair) {
+  bool trusted = true;
+  for (const MeshBody* body : {pair.mesh_a.get(), pair.b.get()}) {
+    if (body == nullptr || body->defect.empty()) continue;
+    trusted = false;
+    if (broken.insert(body).second) newly_broken.push_back(body);
+  }
+  return trusted;
+}
 
 BlankState* CollisionChecker::State::BlankOf(const Pair& pair) {
   if (pair.b->kind == machine::BodyKind::kStock) return &blanks[pair.b.get()];
@@ -56,6 +69,7 @@ BlankState* CollisionChecker::State::BlankOf(const Pair& pair) {
 Monitors CollisionChecker::State::Watch(std::vector<Pair> pairs) {
   Monitors monitors;
   for (Pair& pair : pairs) {
+    if (!Trusted(pair)) continue;
     BlankState* blank = BlankOf(pair);
     machine::CheckSettings check = settings;
     if (machine->nominal_shapes && HasMachineBody(pair)) {
@@ -95,6 +109,14 @@ void CollisionChecker::State::OnMotion(const motion::Motion& motion) {
   if (motion.q0().size() != machine->tree.num_moving()) return;  // a dwell that states no axes
   ++number;
   if (motion.facts.tool != tool) ChangeTool(motion);
+  for (const MeshBody* body : newly_broken) {
+    Finding finding =
+        MakeFinding(Rule::kUncertified, motion.where,
+                    "nothing was checked against " + body->name + ": " + body->defect);
+    finding.bodies = {body->name};
+    findings.emplace_back(number, std::move(finding));
+  }
+  newly_broken.clear();
   // The tool first: its flutes decide whether the blank is still whole.
   if (in_spindle != nullptr) {
     for (const auto& monitor : *in_spindle) monitor->OnMotion(motion, number);

@@ -41,15 +41,6 @@ bool Uncut(const BlankState& blank, std::uint64_t number, double s) {
   return !blank.cut || (blank.motion == number && s < blank.s);
 }
 
-bool IsRapid(const motion::Motion& motion) {
-  return motion.kind == motion::MotionKind::kRapid ||
-         motion.kind == motion::MotionKind::kToolChange;
-}
-
-bool IsCuttingFeed(const motion::Motion& motion) {
-  return motion.kind == motion::MotionKind::kFeed || motion.kind == motion::MotionKind::kArc;
-}
-
 Judgement Judge(PairRole role, const motion::Motion& motion, const machine::CheckSettings& settings,
                 const BlankState* blank, std::uint64_t number, double allowed, double floor) {
   Judgement judgement;

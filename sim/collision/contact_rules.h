@@ -47,10 +47,6 @@ struct Judgement {
   double tolerance = 0.0;
 };
 
-bool IsRapid(const motion::Motion& motion);
-/// A feed along a path; a dwell is none.
-bool IsCuttingFeed(const motion::Motion& motion);
-
 /// `allowed` is the RapidReference's answer; `floor` is PairEngine::floor(): a tool thinner than a
 /// tolerance is held against half its greatest depth instead. `blank` is that of the pair, or null;
 /// `number` counts the motions.

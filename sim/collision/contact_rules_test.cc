@@ -210,7 +210,7 @@ TEST(StockContactTest, RapidIntoTheUncutBlank) {
     EXPECT_EQ(result.findings[0].rule, Rule::kStockContact);
     EXPECT_EQ(result.findings[0].severity, Severity::kError);
     EXPECT_EQ(result.findings[0].where.line, 2);
-    EXPECT_THAT(result.findings[0].message, HasSubstr("flutes of T3 hits the uncut blank stock"));
+    EXPECT_THAT(result.findings[0].message, HasSubstr("flutes of T3 hit the uncut blank stock"));
   }
 }
 

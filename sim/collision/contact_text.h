@@ -3,25 +3,17 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "sim/base/finding.h"
 #include "sim/collision/pairs.h"
-#include "sim/machine/machine.h"
-#include "sim/motion/motion.h"
 
 namespace ncsim::collision {
 
 /// "holder of T3" for "T3.holder"; other names as they are.
 std::string Spoken(const std::string& body);
 
-/// Axis letters and NC values (mm, deg) at q.
-std::vector<std::pair<char, double>> AxisValues(const machine::Machine& machine,
-                                                const motion::JointVector& q);
-
-/// "X-81.280 Y0.000 Z-312.400 B-20.000 C45.000"
-std::string Spoken(const std::vector<std::pair<char, double>>& axes);
+/// `one` or `many`: the flutes of a tool are many.
+std::string Verb(const std::string& body, const char* one, const char* many);
 
 /// What a message about a contact needs to know.
 struct ContactWords {

@@ -57,12 +57,6 @@ void PairMonitor::Pause() {
 }
 
 void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
-  if (!pair_.defect.empty()) {
-    ReportOnce(Rule::kUncertified, motion, number,
-               "clearance of " + Spoken(pair_.names.front()) + " and " +
-                   Spoken(pair_.names.back()) + " cannot be proven: " + pair_.defect);
-    return;
-  }
   OnSpindleStopped(motion, number);
   const double allowed = AllowedDepth(motion);
   Judgement judgement =
@@ -72,8 +66,8 @@ void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
     sweep_.Forget();
     return;
   }
-  judgement.watch.run_least = near_.open ? near_.least : kInfinity;
-  judgement.watch.find_first = !contact_.open || pair_.role == PairRole::kOtherBlank;
+  judgement.watch.run_least = near_.blocks.open() ? near_.least : kInfinity;
+  judgement.watch.find_first = !contact_.blocks.open() || pair_.role == PairRole::kOtherBlank;
   if (ClearWhenSwept(motion, judgement.watch)) {
     CloseRuns();
     return;
@@ -89,7 +83,7 @@ void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
     OnClear(motion, number, judgement, result);
   }
   if (!IsRapid(motion)) {
-    const double seen = contact_.open ? contact_.least : result.least.upper;
+    const double seen = contact_.blocks.open() ? contact_.least : result.least.upper;
     reference_.OnFeed(std::max(0.0, -seen));
   }
 }
@@ -134,29 +128,29 @@ double PairMonitor::AllowedDepth(const Motion& motion) {
 void PairMonitor::OnSpindleStopped(const Motion& motion, std::uint64_t number) {
   const bool applies =
       pair_.role == PairRole::kFlutesPart || (pair_.role == PairRole::kFlutesBlank && !blank_->cut);
-  if (!applies || !IsCuttingFeed(motion) || motion.facts.spindle_on) {
+  if (!applies || !IsFeed(motion) || motion.facts.spindle_on) {
     CloseStopped();
     return;
   }
   Watch touch;
-  touch.find_first = !stopped_.open;
+  touch.find_first = !stopped_.blocks.open();
   const SweepResult result = sweep_.Probe(motion, touch);
   if (!result.contact) {
     CloseStopped();
     return;
   }
-  if (!stopped_.open) {
+  if (!stopped_.blocks.open()) {
     Open(motion, number, Rule::kSpindleStopped, Severity::kError, result.first, &stopped_);
   }
   stopped_.least = std::min(stopped_.least, std::min(0.0, result.least.upper));
-  Count(motion, &stopped_);
+  stopped_.blocks.Add(motion.where);
 }
 
 void PairMonitor::OnContact(const Motion& motion, std::uint64_t number, const Judgement& judgement,
                             const SweepResult& result) {
   CloseNear();
   Severity severity = judgement.severity;
-  if (pair_.role == PairRole::kFlutesBlank && IsCuttingFeed(motion)) {
+  if (pair_.role == PairRole::kFlutesBlank && IsFeed(motion)) {
     OnFirstCut(number, result);
     return;
   }
@@ -167,18 +161,18 @@ void PairMonitor::OnContact(const Motion& motion, std::uint64_t number, const Ju
     }
     severity = Severity::kWarning;
   }
-  if (contact_.open &&
-      (contact_.finding.rule != judgement.rule || contact_.finding.severity != severity)) {
+  if (contact_.blocks.open() && (contact_.blocks.finding().rule != judgement.rule ||
+                                 contact_.blocks.finding().severity != severity)) {
     CloseContact();
   }
-  const bool first = !contact_.open;
+  const bool first = !contact_.blocks.open();
   if (first) {
     Open(motion, number, judgement.rule, severity, result.first, &contact_);
     contact_.words.tolerance = judgement.tolerance;
     if (engine_->has_depth()) contact_.least = std::min(0.0, result.least.upper);
   }
   touched_ = true;
-  Count(motion, &contact_);
+  contact_.blocks.Add(motion.where);
   Deepen(motion, judgement.watch.track, &contact_);
   // One warning a tool is enough: until the stock is simulated there is nothing more to say.
   if (pair_.role == PairRole::kOtherBlank && severity == Severity::kWarning) {
@@ -196,12 +190,12 @@ void PairMonitor::OnFirstCut(std::uint64_t number, const SweepResult& result) {
 
 void PairMonitor::Deepen(const Motion& motion, bool track, Run* run) {
   if (!engine_->has_depth()) return;
-  const double known = run->blocks > 1 ? run->least : kInfinity;
+  const double known = run->blocks.blocks() > 1 ? run->least : kInfinity;
   PathPoint at;
-  const double depth = sweep_.Deepest(motion, run->with_lag, known, &run->depth_budget, &at);
-  run->least = std::min(run->least, depth);
-  if (track) sweep_.Include({engine_->floor(), run->least}, motion.where);
-  if (run->blocks == 1 && depth < -kConfirmDepth) Confirm(motion, run->number, at);
+  const Interval depth = sweep_.Deepest(motion, run->with_lag, known, &run->depth_budget, &at);
+  run->least = std::min(run->least, depth.upper);
+  if (track) sweep_.Include({depth.lower, depth.upper}, motion.where);
+  if (run->blocks.blocks() == 1 && depth.upper < -kConfirmDepth) Confirm(motion, run->number, at);
 }
 
 void PairMonitor::Confirm(const Motion& motion, std::uint64_t number, const PathPoint& at) {
@@ -222,14 +216,15 @@ void PairMonitor::OnClear(const Motion& motion, std::uint64_t number, const Judg
     return;
   }
   const Rule rule = rounded ? Rule::kUncertified : Rule::kNearMiss;
-  if (near_.open && near_.finding.rule != rule) CloseNear();
-  if (!near_.open) Open(motion, number, rule, Info(rule).severity, result.least_at, &near_);
+  if (near_.blocks.open() && near_.blocks.finding().rule != rule) CloseNear();
+  if (!near_.blocks.open())
+    Open(motion, number, rule, Info(rule).severity, result.least_at, &near_);
   near_.words.tolerance = rounded ? watch.rounding : watch.clearance;
   if (result.least.upper < near_.least) {
     near_.least = result.least.upper;
     Place(motion, result.least_at, &near_);
   }
-  Count(motion, &near_);
+  near_.blocks.Add(motion.where);
 }
 
 void PairMonitor::ReportOnce(Rule rule, const Motion& motion, std::uint64_t number,
@@ -244,11 +239,11 @@ void PairMonitor::ReportOnce(Rule rule, const Motion& motion, std::uint64_t numb
 void PairMonitor::Open(const Motion& motion, std::uint64_t number, Rule rule, Severity severity,
                        const PathPoint& at, Run* run) {
   *run = Run();
-  run->open = true;
   run->number = number;
-  run->finding = MakeFinding(rule, motion.where, "");
-  run->finding.severity = severity;
-  run->finding.bodies = pair_.names;
+  Finding finding = MakeFinding(rule, motion.where, "");
+  finding.severity = severity;
+  finding.bodies = pair_.names;
+  run->blocks.Start(std::move(finding));
   run->with_lag = at.lag > 0.0;
   run->words.rule = rule;
   run->words.severity = severity;
@@ -258,53 +253,45 @@ void PairMonitor::Open(const Motion& motion, std::uint64_t number, Rule rule, Se
 }
 
 void PairMonitor::Place(const Motion& motion, const PathPoint& at, Run* run) {
-  run->finding.where = motion.where;
-  run->finding.axes = AxisValues(*machine_, motion.At(at.s, at.lag));
-  run->finding.time_s = motion.start_time + motion.ElapsedTime(at.s, at.lag);
-  run->where_text = Spoken(run->finding.axes);
-}
-
-void PairMonitor::Count(const Motion& motion, Run* run) {
-  const bool same_block =
-      motion.where.line == run->last.line && motion.where.file == run->last.file;
-  if (run->blocks == 0 || !same_block) ++run->blocks;
-  run->last = motion.where;
+  Finding& finding = run->blocks.finding();
+  finding.where = motion.where;
+  finding.axes = machine_->Readout(motion.At(at.s, at.lag));
+  finding.time_s = motion.start_time + motion.ElapsedTime(at.s, at.lag);
 }
 
 void PairMonitor::CloseContact() {
-  if (!contact_.open) return;
+  if (!contact_.blocks.open()) return;
   contact_.words.depth = std::max(0.0, -contact_.least);
-  if (engine_->has_depth()) contact_.finding.clearance_mm = -contact_.words.depth;
-  contact_.finding.message = DescribeContact(pair_, contact_.words, contact_.where_text);
-  Emit(&contact_);
+  Finding& finding = contact_.blocks.finding();
+  if (engine_->has_depth()) finding.clearance_mm = -contact_.words.depth;
+  Emit(DescribeContact(pair_, contact_.words, ToString(finding.axes)), &contact_);
 }
 
 void PairMonitor::CloseStopped() {
-  if (!stopped_.open) return;
-  stopped_.finding.message = DescribeContact(pair_, stopped_.words, stopped_.where_text);
-  Emit(&stopped_);
+  if (!stopped_.blocks.open()) return;
+  const std::string where = ToString(stopped_.blocks.finding().axes);
+  Emit(DescribeContact(pair_, stopped_.words, where), &stopped_);
 }
 
 void PairMonitor::CloseNear() {
-  if (!near_.open) return;
+  if (!near_.blocks.open()) return;
+  Finding& finding = near_.blocks.finding();
   const double least = std::max(0.0, near_.least);
-  std::string text = Spoken(pair_.names.front()) + " comes within " + Short(least, 2) + " mm of " +
-                     Spoken(pair_.names.back());
+  finding.clearance_mm = least;
+  const std::string& a = pair_.names.front();
   const std::string limit = Short(near_.words.tolerance, 3) + " mm";
-  text += near_.finding.rule == Rule::kNearMiss
-              ? " (clearance " + limit + ")"
-              : ", and the control may round the corner by " + limit + ",";
-  near_.finding.clearance_mm = least;
-  near_.finding.message = text + " at " + near_.where_text;
-  Emit(&near_);
+  Emit(Spoken(a) + " " + Verb(a, "comes", "come") + " within " + Short(least, 2) + " mm of " +
+           Spoken(pair_.names.back()) +
+           (finding.rule == Rule::kNearMiss
+                ? " (clearance " + limit + ")"
+                : ", and the control may round the corner by " + limit + ",") +
+           " at " + ToString(finding.axes),
+       &near_);
 }
 
-void PairMonitor::Emit(Run* run) {
-  if (run->blocks > 1) {
-    run->finding.message += " (" + std::to_string(run->blocks) + " blocks, the last is line " +
-                            std::to_string(run->last.line) + ")";
-  }
-  findings_->emplace_back(run->number, std::move(run->finding));
+void PairMonitor::Emit(std::string message, Run* run) {
+  run->blocks.finding().message = std::move(message);
+  findings_->emplace_back(run->number, run->blocks.Take());
   *run = Run();
 }
 

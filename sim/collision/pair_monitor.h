@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/run_finding.h"
 #include "sim/collision/contact_rules.h"
 #include "sim/collision/contact_text.h"
 #include "sim/collision/engine.h"
@@ -43,16 +44,12 @@ class PairMonitor {
  private:
   /// Consecutive blocks with the same fault.
   struct Run {
-    bool open = false;
+    RunFinding blocks;
     std::uint64_t number = 0;
-    Finding finding;
     ContactWords words;
-    std::string where_text;
     double least = std::numeric_limits<double>::infinity();
     bool with_lag = false;
     int depth_budget = 3000;  ///< Poses to look for the deepest one.
-    int blocks = 0;
-    SourcePosition last;
   };
 
   bool ClearWhenSwept(const motion::Motion& motion, const Watch& watch);
@@ -70,11 +67,10 @@ class PairMonitor {
   void Open(const motion::Motion& motion, std::uint64_t number, Rule rule, Severity severity,
             const PathPoint& at, Run* run);
   void Place(const motion::Motion& motion, const PathPoint& at, Run* run);
-  static void Count(const motion::Motion& motion, Run* run);
   void CloseContact();
-  void CloseNear();
   void CloseStopped();
-  void Emit(Run* run);
+  void CloseNear();
+  void Emit(std::string message, Run* run);
   void CloseRuns();
 
   const machine::Machine* machine_;

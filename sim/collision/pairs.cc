@@ -28,10 +28,6 @@ bool Disabled(const machine::Machine& machine, int link_a, int link_b) {
                      });
 }
 
-std::string DefectOf(const MeshBody& body) {
-  return body.defect.empty() ? "" : body.name + ": " + body.defect;
-}
-
 // Moving joints between the spindle and a link: the fewer, the nearer to the tool.
 std::size_t JointsToSpindle(const machine::Machine& machine, int link) {
   return kinematics::RelativePath(machine.tree, machine.spindle_link, link).joint_indices().size();
@@ -144,7 +140,6 @@ std::vector<Pair> ScenePairs(const machine::Machine& machine, const MeshBodies& 
       Pair pair;
       pair.role = RoleOf(a->kind, b->kind);
       pair.names = {a->name, b->name};
-      pair.defect = !a->defect.empty() ? DefectOf(*a) : DefectOf(*b);
       pair.swept = SweptPair(machine, pair, a, swept_of(b));
       if (pair.swept == nullptr) pair.swept = SweptPair(machine, pair, b, swept_of(a));
       ChooseA(machine, std::move(a), std::move(b), &pair);
@@ -167,7 +162,6 @@ std::vector<Pair> ToolPairs(const machine::Machine& machine, const machine::Tool
       pair.tool = body;
       pair.b = other;
       pair.names = {body->name, other->name};
-      pair.defect = DefectOf(*other);
       pairs.push_back(std::move(pair));
     }
   }

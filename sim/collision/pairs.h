@@ -34,7 +34,6 @@ struct Pair {
   /// Its clearance is never more than the pair's, and that joint does not move it: a turning
   /// platter costs it nothing.
   std::shared_ptr<const Pair> swept;
-  std::string defect;  ///< Non-empty: the pair cannot be certified, and why.
 
   const kinematics::Extent& extent_a() const { return tool ? tool->extent : mesh_a->extent; }
   int link_b() const { return b->extent.link; }

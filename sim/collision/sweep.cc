@@ -281,14 +281,15 @@ std::optional<Interval> PairSweep::At(const Motion& motion, const PathPoint& poi
   return engine_->Solid(Pose(motion, point), goal);
 }
 
-double PairSweep::Deepest(const Motion& motion, bool with_lag, double known, int* budget,
-                          PathPoint* at) {
+Interval PairSweep::Deepest(const Motion& motion, bool with_lag, double known, int* budget,
+                            PathPoint* at) {
   struct Piece {
     double estimate;
+    double lower;
     Span span;
     bool operator<(const Piece& o) const { return estimate > o.estimate; }
   };
-  double best = kInfinity;
+  Interval best{kInfinity, kInfinity};
   double limit = known;  // nothing above this is of interest
   std::vector<Piece> heap;
   int queries = 0;
@@ -298,31 +299,41 @@ double PairSweep::Deepest(const Motion& motion, bool with_lag, double known, int
     const std::optional<Interval> clearance =
         At(motion, middle, limit - kDepthTolerance + bound, 0.25 * bound);
     ++queries;
-    if (!clearance.has_value()) return;
-    if (clearance->upper < best) {
-      best = clearance->upper;
-      *at = middle;
-      limit = std::min(limit, best);
+    if (!clearance.has_value()) {
+      best.lower = engine_->floor();
+      return;
     }
-    // A depth is a reported number, no proof: its witness is what counts.
-    heap.push_back({std::max(clearance->upper - bound, engine_->floor()), span});
+    if (clearance->upper < best.upper) {
+      best.upper = clearance->upper;
+      *at = middle;
+      limit = std::min(limit, best.upper);
+    }
+    // The witness is what is reported, so the search follows what it may become.
+    heap.push_back({std::max(clearance->upper - bound, engine_->floor()),
+                    std::max(clearance->lower - bound, engine_->floor()), span});
     std::push_heap(heap.begin(), heap.end());
   };
-  Span whole = motion::Whole(motion);
+  const Span box = motion::Whole(motion);
+  Span whole = box;
   if (!with_lag) whole.lag0 = whole.lag1 = 0.0;
+  if (whole.lag1 < box.lag1) best.lower = engine_->floor();
   look(whole);
   // The ends are where a plunge is deepest.
   look({whole.s1, whole.s1, whole.lag0, whole.lag0});
   while (!heap.empty() && heap.front().estimate < limit - kDepthTolerance &&
          queries < std::min(kDepthQueries, *budget)) {
-    const Span span = heap.front().span;
+    const Piece piece = heap.front();
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
-    if (span.s1 <= span.s0 && span.lag1 <= span.lag0) continue;
-    const auto [first, second] = Halve(motion, path_, span);
+    if (piece.span.s1 <= piece.span.s0 && piece.span.lag1 <= piece.span.lag0) {
+      best.lower = std::min(best.lower, piece.lower);
+      continue;
+    }
+    const auto [first, second] = Halve(motion, path_, piece.span);
     look(first);
     look(second);
   }
+  for (const Piece& piece : heap) best.lower = std::min(best.lower, piece.lower);
   *budget -= queries;
   return best;
 }

@@ -63,10 +63,10 @@ class PairSweep {
 
   /// Clearance (negative) at the deepest pose of a motion that is known to be in contact, to 0.01
   /// mm: at lag 0, or with all lags. `known` is the depth that is not worth looking for. `budget`
-  /// counts down poses; without one left, only the middle and the end are looked at. +inf where
-  /// nothing deeper than `known` was found.
-  double Deepest(const motion::Motion& motion, bool with_lag, double known, int* budget,
-                 PathPoint* at);
+  /// counts down poses; without one left, only the middle and the end are looked at. `upper` is
+  /// what was found, +inf for nothing deeper than `known`; no pose of the motion is below `lower`.
+  Interval Deepest(const motion::Motion& motion, bool with_lag, double known, int* budget,
+                   PathPoint* at);
 
   /// Clearance of the solids at a pose of the motion, not told apart above `enough`.
   std::optional<Interval> At(const motion::Motion& motion, const PathPoint& point, double enough,

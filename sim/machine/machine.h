@@ -11,6 +11,7 @@
 
 #include "kinematics/five_axis.h"
 #include "kinematics/tree.h"
+#include "sim/base/finding.h"
 #include "sim/machine/mesh.h"
 
 namespace ncsim::machine {
@@ -88,6 +89,8 @@ struct Machine {
 
   const Axis* FindAxis(char letter) const;
   kinematics::JointVector Home() const;
+  /// NC letters and values (mm, deg) at q.
+  AxisReadout Readout(const kinematics::JointVector& q) const;
 };
 
 }  // namespace ncsim::machine

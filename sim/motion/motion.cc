@@ -53,6 +53,14 @@ bool InProportion(const DogLeg& path) {
 
 }  // namespace
 
+bool IsFeed(const Motion& motion) {
+  return motion.kind == MotionKind::kFeed || motion.kind == MotionKind::kArc;
+}
+
+bool IsRapid(const Motion& motion) {
+  return motion.kind == MotionKind::kRapid || motion.kind == MotionKind::kToolChange;
+}
+
 std::string_view ToString(MotionKind kind) {
   switch (kind) {
     case MotionKind::kRapid:

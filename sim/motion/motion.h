@@ -127,6 +127,11 @@ struct Motion {
   double ElapsedTime(double s, double lag = 0.0) const;
 };
 
+/// A feed along a line or an arc, as distinct from rapids, dwells and tool changes.
+bool IsFeed(const Motion& motion);
+/// A rapid, or the way to and from the tool changer.
+bool IsRapid(const Motion& motion);
+
 /// A piece of a motion.
 struct Span {
   double s0 = 0.0, s1 = 1.0;

@@ -22,7 +22,7 @@ using nlohmann::json;
 
 struct Scene {
   std::string part_xyz = "[-50.8, -50.8, 150.0]";  // of G54, on the platter's centre
-  double riser_diameter = 100.0;
+  double riser_diameter = 200.0;
   double riser_height = 149.9;
   std::string holder_t3 = "\"CAT40-ER32-100\"";
   std::string extra;  // more lines of the job
@@ -188,6 +188,26 @@ TEST_F(Umc750Verdict, PartOffCentreOvertravels) {
   scene_.part_xyz = "[189.2, -50.8, 150.0]";
   const json report = Check(1, {"--interpret-only"});
   EXPECT_TRUE(Has(report, "travel-limit", 1392)) << Errors(report);
+}
+
+// At B90 C0 the tool lies along X over the riser, its axis Z.88 in = 22.4 mm above it; the holder's
+// nut (radius 25, 80 mm behind the tip) gets over a riser of radius 130 in the first block that
+// takes the tip to less than 50 mm from the centre: line 2789, X3.6149 (2788: 130.4 mm).
+TEST_F(Umc750Verdict, WideRiserIsHit) {
+  scene_.riser_diameter = 260.0;
+  Keep(2800);
+  const json report = Check(1);
+  EXPECT_TRUE(Has(report, "collision", 2789)) << Errors(report);
+}
+
+// Line 2708 goes to X2 Y2 Z5 at B82.875 C0, above the centre. The rim of a holder of radius 150 is
+// there at r = 80 sin B + 150 cos B = 98.0 mm and z = 127 + 80 cos B - 150 sin B = -11.9 mm, inside
+// the riser (radius 100, top at -0.1).
+TEST_F(Umc750Verdict, WideHolderHitsTheRiser) {
+  scene_.holder_t3 = "[ { lower = 300.0, upper = 300.0, height = 100.0 } ]";
+  Keep(2720);
+  const json report = Check(1);
+  EXPECT_TRUE(Has(report, "collision", 2708)) << Errors(report);
 }
 
 // Line 1671 starts at the tool-change pose. From X0 Y0 the dog-leg runs out X and Y together first
