@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Sourced by scenes/run, tests/run and .ci/run: installs what a bare Debian 12 lacks, then offers `build PRESET`.
+# Exports NCSIM_CORPUS (default: ../shared/corpus beside the checkout, when it is there).
 set -eu
 
 NCSIM_PACKAGES="g++ cmake ninja-build libeigen3-dev libfcl-dev libassimp-dev liburdfdom-dev
@@ -21,6 +22,11 @@ install_packages() {
   # shellcheck disable=SC2086
   $as_root apt-get install -y -qq --no-install-recommends $missing >&2
 }
+
+if [ -z "${NCSIM_CORPUS:-}" ] && [ -d ../shared/corpus ]; then
+  NCSIM_CORPUS=$(cd ../shared/corpus && pwd)
+fi
+[ -z "${NCSIM_CORPUS:-}" ] || export NCSIM_CORPUS
 
 # build PRESET [TARGET...]: configures and builds with a preset of CMakePresets.json, quietly unless it fails.
 build() {

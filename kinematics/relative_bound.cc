@@ -20,8 +20,12 @@ RelativePath::RelativePath(const KinematicTree& tree, int link_b, int link_a)
       slides_.push_back({i, i, {}});
       R.setIdentity();
     }
-    slides_.back().last = i + 1;
-    slides_.back().directions.emplace_back(R * steps[i].axis);
+    Slide& slide = slides_.back();
+    slide.last = i + 1;
+    slide.directions.emplace_back(R * steps[i].axis);
+    for (std::size_t k = 0; k + 1 < slide.directions.size(); ++k) {
+      if (std::abs(slide.directions[k].dot(slide.directions.back())) > 1e-9) slide.square = false;
+    }
     R = R * steps[i].X_after.linear();
   }
 }
@@ -63,6 +67,32 @@ double RelativePath::Bound(const JointVector& q, const Extent& a, const JointVec
     y = step->Apply(q[step->index], y);
   }
   return bound;
+}
+
+TravelWeights RelativePath::Weights(const JointVector& middle, const JointVector& half,
+                                    const Extent& a) const {
+  TravelWeights weights;
+  weights.joints = JointVector::Zero(middle.size());
+  for (const Slide& slide : slides_) {
+    const bool as_one = slide.square && slide.last - slide.first > 1;
+    if (as_one) weights.linear += 1.0;
+    for (int i = slide.first; i < slide.last && !as_one; ++i) weights.joints[indices_[i]] += 1.0;
+  }
+  Eigen::Vector3d y = a.p_LC;
+  double astray = 0.0;  // how far from y the centre may be
+  const std::vector<ChainStep>& steps = chain_.steps();
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+    y = step->X_after * y;
+    if (step->revolute) {
+      const double radius = step->axis.cross(y).norm();
+      weights.joints[step->index] = radius + astray + a.radius;
+      astray += Chord(half[step->index]) * (radius + astray);
+    } else {
+      astray += half[step->index];
+    }
+    y = step->Apply(middle[step->index], y);
+  }
+  return weights;
 }
 
 }  // namespace ncsim::kinematics

@@ -23,6 +23,12 @@ struct Extent {
 /// 0, rad): the chord, and the diameter from half a turn on.
 double Chord(double angle);
 
+/// See RelativePath::Weights.
+struct TravelWeights {
+  JointVector joints;   ///< mm per mm, or mm per rad.
+  double linear = 0.0;  ///< mm per mm of the prismatic joints' displacement as one vector.
+};
+
 /// The joints on the path between two links. What both links hang on is left out: it moves neither
 /// against the other.
 ///
@@ -55,12 +61,20 @@ class RelativePath {
   double Bound(const JointVector& q, const Extent& a, const JointVector& deviation,
                double prismatic_limit = std::numeric_limits<double>::infinity()) const;
 
+  /// What the bound comes to anywhere in a box: with |dq| the changes of the joints between two
+  /// poses of the box `middle` +- `half`, and |dp| the root of the sum of squares over all
+  /// prismatic joints, no point of `a`, seen from b, moves further than joints . |dq| + linear *
+  /// |dp|. (As for Bound, with r_k at its greatest: the centre of `a`, in the frame of joint k, is
+  /// no further from where it is at `middle` than the joints behind it can take it.)
+  TravelWeights Weights(const JointVector& middle, const JointVector& half, const Extent& a) const;
+
  private:
   /// A run of neighbouring prismatic joints: steps first..last-1, `directions` in one common frame.
   struct Slide {
     int first = 0;
     int last = 0;
     std::vector<Eigen::Vector3d> directions;
+    bool square = true;  ///< The directions are at right angles to each other.
   };
   double SlideBound(const Slide& slide, const JointVector& deviation) const;
 

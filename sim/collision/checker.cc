@@ -30,7 +30,8 @@ struct CollisionChecker::State {
   BlankState* BlankOf(const Pair& pair);
   Monitors Watch(std::vector<Pair> pairs);
   void ChangeTool(const motion::Motion& motion);
-  void OnMotion(const motion::Motion& motion);
+  void OnRun(std::vector<const motion::Motion*> motions);
+  void OnWindow(const motion::Window& window);
 
   const machine::Machine* machine;
   const machine::ToolTable* tools;
@@ -45,7 +46,7 @@ struct CollisionChecker::State {
   std::set<int> unknown_tools;
   std::set<const MeshBody*> broken;
   std::vector<const MeshBody*> newly_broken;  // not reported yet
-  std::uint64_t number = 0;
+  std::uint64_t number = 0;                   // of motions so far
 };
 
 bool CollisionChecker::State::Trusted(const Pair& pair) {
@@ -93,7 +94,7 @@ void CollisionChecker::State::ChangeTool(const motion::Motion& motion) {
   const machine::Tool* data = tools->Find(tool);
   if (data == nullptr) {
     if (unknown_tools.insert(tool).second) {
-      findings.emplace_back(number,
+      findings.emplace_back(number + 1,
                             MakeFinding(Rule::kUncertified, motion.where,
                                         "the shape of T" + std::to_string(tool) +
                                             " is not known, so nothing was checked against it"));
@@ -105,23 +106,41 @@ void CollisionChecker::State::ChangeTool(const motion::Motion& motion) {
   in_spindle = &entry->second;
 }
 
-void CollisionChecker::State::OnMotion(const motion::Motion& motion) {
-  if (motion.q0().size() != machine->tree.num_moving()) return;  // a dwell that states no axes
-  ++number;
-  if (motion.facts.tool != tool) ChangeTool(motion);
+void CollisionChecker::State::OnRun(std::vector<const motion::Motion*> motions) {
+  if (motions.empty()) return;
+  const motion::Motion& first = *motions.front();
+  if (first.facts.tool != tool) ChangeTool(first);
+  const machine::Tool* data = tools->Find(tool);
+  const kinematics::FiveAxis* five_axis = machine->five_axis ? &*machine->five_axis : nullptr;
+  const motion::Travel travel(machine->tree, five_axis, data == nullptr ? 0.0 : data->length,
+                              std::move(motions));
   for (const MeshBody* body : newly_broken) {
     Finding finding =
-        MakeFinding(Rule::kUncertified, motion.where,
+        MakeFinding(Rule::kUncertified, first.where,
                     "nothing was checked against " + body->name + ": " + body->defect);
     finding.bodies = {body->name};
-    findings.emplace_back(number, std::move(finding));
+    findings.emplace_back(number + 1, std::move(finding));
   }
   newly_broken.clear();
   // The tool first: its flutes decide whether the blank is still whole.
   if (in_spindle != nullptr) {
-    for (const auto& monitor : *in_spindle) monitor->OnMotion(motion, number);
+    for (const auto& monitor : *in_spindle) monitor->OnRun(travel, number + 1);
   }
-  for (const auto& monitor : scene) monitor->OnMotion(motion, number);
+  for (const auto& monitor : scene) monitor->OnRun(travel, number + 1);
+  number += travel.size();
+}
+
+// Runs of motions that follow each other with one tool; a dwell that states no axes is passed over.
+void CollisionChecker::State::OnWindow(const motion::Window& window) {
+  std::vector<const motion::Motion*> run;
+  for (const motion::Motion& motion : window.motions) {
+    if (motion.q0().size() != machine->tree.num_moving()) continue;
+    const bool follows = !run.empty() && motion.facts.tool == run.back()->facts.tool &&
+                         SamePose(run.back()->q1(), motion.q0());
+    if (!follows) OnRun(std::exchange(run, {}));
+    run.push_back(&motion);
+  }
+  OnRun(std::move(run));
 }
 
 CollisionChecker::CollisionChecker(const machine::Machine& machine, const machine::Scene& scene,
@@ -136,9 +155,7 @@ CollisionChecker::CollisionChecker(const machine::Machine& machine, const machin
 
 CollisionChecker::~CollisionChecker() = default;
 
-void CollisionChecker::Check(const motion::Window& window) {
-  for (const motion::Motion& motion : window.motions) state_->OnMotion(motion);
-}
+void CollisionChecker::Check(const motion::Window& window) { state_->OnWindow(window); }
 
 CollisionResult CollisionChecker::Finish() {
   CollisionResult result;

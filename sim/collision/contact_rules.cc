@@ -63,6 +63,7 @@ Judgement Judge(PairRole role, const motion::Motion& motion, const machine::Chec
       judgement.watch.track = true;
       judgement.watch.track_below = kInfinity;
       judgement.watch.track_ceiling = 0.0;
+      judgement.watch.track_within = 0.25 * judgement.tolerance;
       break;
     case PairRole::kFlutesBlank:
       judgement.rule = Rule::kStockContact;
@@ -74,7 +75,7 @@ Judgement Judge(PairRole role, const motion::Motion& motion, const machine::Chec
       break;
     case PairRole::kOtherBlank:
       judgement.rule = Rule::kStockContact;
-      if (blank->cut) break;
+      if (blank->cut && blank->motion <= number) break;
       WatchClearance(motion, settings, &judgement.watch);
       judgement.watch.track = false;  // a clearance to what will be cut away is no number to report
       break;

@@ -37,6 +37,7 @@ class ToolEngine final : public PairEngine {
                        });
   }
   double Budget(double need) const override { return std::max(20.0, need); }
+  double thrift() const override { return 0.9; }
   bool has_depth() const override { return true; }
   double floor() const override { return -a_->shape.inradius(); }
 
@@ -80,6 +81,7 @@ class MeshEngine final : public PairEngine {
   // FCL is fast where the cut lies well below the distance, and ten to a hundred times slower where
   // it does not.
   double Budget(double need) const override { return std::max(1.0, 0.15 * need); }
+  double thrift() const override { return 0.55; }
   bool has_depth() const override { return false; }
   double floor() const override { return 0.0; }
 

@@ -32,6 +32,9 @@ class PairEngine {
   /// How far beyond what is needed a clearance is worth computing, mm: it is a budget for the
   /// motions to come.
   virtual double Budget(double need) const = 0;
+  /// Which part of a clearance that was found to be ask for next time: one where asking for too
+  /// much costs little.
+  virtual double thrift() const = 0;
   virtual bool has_depth() const = 0;
   /// The least value that Clearance or Solid can have; minus the greatest depth.
   virtual double floor() const = 0;

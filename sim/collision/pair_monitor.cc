@@ -13,7 +13,7 @@ namespace {
 using motion::Motion;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kSweptPoses = 6;  // worth a try, no more
+constexpr int kSweptPoses = 64;  // of one motion, before the pair itself is looked at
 // A contact that the kernel finds deeper than this must be seen by FCL on circumscribed meshes too.
 constexpr double kConfirmDepth = 0.02;
 
@@ -22,8 +22,10 @@ std::unique_ptr<PairEngine> EngineOf(const Pair& pair) {
 }
 
 motion::PairPath PathOf(const machine::Machine& machine, const Pair& pair) {
-  return motion::PairPath(machine.tree, pair.extent_a(), pair.link_b(),
-                          machine.five_axis ? &*machine.five_axis : nullptr);
+  motion::PairPath path(machine.tree, pair.extent_a(), pair.link_b(),
+                        machine.five_axis ? &*machine.five_axis : nullptr);
+  path.revolved = pair.tool != nullptr;
+  return path;
 }
 
 }  // namespace
@@ -56,6 +58,88 @@ void PairMonitor::Pause() {
   warned_ = false;
 }
 
+void PairMonitor::OnRun(const motion::Travel& travel, std::uint64_t number) {
+  bound_.emplace(sweep_.path(), travel);
+  if (swept_ != nullptr) swept_bound_.emplace(swept_->path(), travel);
+  for (std::size_t i = 0; i < travel.size();) {
+    const std::size_t next = Cross(travel, i, number + i);
+    if (next > i) {
+      Passed(travel, i, next);
+      i = next;
+    } else {
+      OnMotion(travel[i], number + i);
+      ++i;
+    }
+  }
+}
+
+// Motions that are clear, and by so much that no rule has anything to say: the first one that may
+// not be. What is asked for at the first holds for all, since a blank asks for less once it is cut.
+std::size_t PairMonitor::Cross(const motion::Travel& travel, std::size_t begin,
+                               std::uint64_t number) {
+  Judgement judgement =
+      Judge(pair_.role, travel[begin], settings_, blank_, number, 0.0, engine_->floor());
+  if (!judgement.checked || warned_) return begin;
+  Watch& watch = judgement.watch;
+  if (watch.clearance > 0.0) watch.rounding = travel.corner_rounding();
+  if (sweep_.has_least()) {
+    const std::size_t end = CrossSwept(travel, begin, watch);
+    if (end > begin) return end;
+  }
+  if (!cross_.Ready()) return begin;
+  const std::size_t end = sweep_.Cross(travel, *bound_, begin, watch).end;
+  end > begin ? cross_.Helped() : cross_.Failed();
+  return end;
+}
+
+// Most motions of most pairs of links are settled by the swept pair, without a look at the rotary
+// joint that turns most.
+std::size_t PairMonitor::CrossSwept(const motion::Travel& travel, std::size_t begin,
+                                    const Watch& watch) {
+  if (swept_ == nullptr || !cross_swept_.Ready()) return begin;
+  Watch whole;
+  whole.contact = std::max(0.0, sweep_.Need(watch));
+  const PairSweep::Crossing crossing = swept_->Cross(travel, *swept_bound_, begin, whole);
+  if (crossing.end == begin) {
+    cross_swept_.Failed();
+    return begin;
+  }
+  cross_swept_.Helped();
+  if (watch.track) sweep_.Include({crossing.least, kInfinity}, travel[begin].where);
+  sweep_.Accept(travel[crossing.end - 1], swept_->known_clearance());
+  return crossing.end;
+}
+
+bool PairMonitor::ClearWhenSwept(const Motion& motion, const Watch& watch) {
+  if (swept_ == nullptr || !sweep_.has_least() || !check_swept_.Ready()) return false;
+  Watch whole;
+  whole.contact = std::max(0.0, sweep_.Need(watch));
+  whole.find_first = false;
+  whole.max_poses = kSweptPoses;
+  const SweepResult result = swept_->Check(motion, whole);
+  if (result.contact || result.uncertified) {
+    check_swept_.Failed();
+    return false;
+  }
+  check_swept_.Helped();
+  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion.where);
+  sweep_.Accept(motion, swept_->known_clearance());
+  return true;
+}
+
+// Motions without contact.
+void PairMonitor::Passed(const motion::Travel& travel, std::size_t begin, std::size_t end) {
+  CloseRuns();
+  if (pair_.role != PairRole::kFlutesPart && pair_.role != PairRole::kThinShankPart) return;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (IsRapid(travel[i])) {
+      reference_.OnRapid(travel[i].facts.cycle, 0.0);
+    } else {
+      reference_.OnFeed(0.0);
+    }
+  }
+}
+
 void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
   OnSpindleStopped(motion, number);
   const double allowed = AllowedDepth(motion);
@@ -86,30 +170,6 @@ void PairMonitor::OnMotion(const Motion& motion, std::uint64_t number) {
     const double seen = contact_.blocks.open() ? contact_.least : result.least.upper;
     reference_.OnFeed(std::max(0.0, -seen));
   }
-}
-
-// Most motions of most pairs of links are settled by the swept pair, without a look at the rotary
-// joint that turns most. It is left alone for a while where it is not good enough.
-bool PairMonitor::ClearWhenSwept(const Motion& motion, const Watch& watch) {
-  if (swept_ == nullptr || !sweep_.has_least()) return false;
-  if (swept_wait_ > 0) {
-    --swept_wait_;
-    return false;
-  }
-  Watch whole;
-  whole.contact = sweep_.Need(watch);
-  whole.find_first = false;
-  whole.max_poses = kSweptPoses;
-  const SweepResult result = swept_->Check(motion, whole);
-  if (result.contact || result.uncertified) {
-    swept_wait_ = swept_pause_;
-    swept_pause_ = std::min(2 * swept_pause_, 64);
-    return false;
-  }
-  swept_pause_ = 1;
-  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion.where);
-  sweep_.Accept(motion, swept_->known_clearance(), watch.track);
-  return true;
 }
 
 // The depth that a rapid may keep: it is where the feed before it left the tool.

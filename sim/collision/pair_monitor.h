@@ -3,9 +3,11 @@
 // into one finding each.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,8 +30,9 @@ class PairMonitor {
   PairMonitor(const machine::Machine& machine, const machine::CheckSettings& settings, Pair pair,
               BlankState* blank, NumberedFindings* findings);
 
-  /// Motions in order, while the pair exists (a tool in the spindle). `number` counts all motions.
-  void OnMotion(const motion::Motion& motion, std::uint64_t number);
+  /// Motions in order, while the pair exists (a tool in the spindle). `number` is that of the first
+  /// of them among all motions.
+  void OnRun(const motion::Travel& travel, std::uint64_t number);
   /// The tool leaves the spindle, or another comes: runs end, what is known of the pose is void.
   void Pause();
   /// Another tool: a pair of the scene may warn about the cut blank again.
@@ -42,6 +45,21 @@ class PairMonitor {
   bool has_clearance() const;
 
  private:
+  /// How long something that did not help is left alone.
+  class Patience {
+   public:
+    bool Ready() { return wait_ == 0 || --wait_ == 0; }
+    void Helped() { pause_ = 1; }
+    void Failed() {
+      wait_ = pause_;
+      pause_ = std::min(2 * pause_, 64);
+    }
+
+   private:
+    int wait_ = 0;   // motions until it is tried again
+    int pause_ = 1;  // and how long the next wait is
+  };
+
   /// Consecutive blocks with the same fault.
   struct Run {
     RunFinding blocks;
@@ -52,7 +70,11 @@ class PairMonitor {
     int depth_budget = 3000;  ///< Poses to look for the deepest one.
   };
 
+  void OnMotion(const motion::Motion& motion, std::uint64_t number);
+  std::size_t Cross(const motion::Travel& travel, std::size_t begin, std::uint64_t number);
+  std::size_t CrossSwept(const motion::Travel& travel, std::size_t begin, const Watch& watch);
   bool ClearWhenSwept(const motion::Motion& motion, const Watch& watch);
+  void Passed(const motion::Travel& travel, std::size_t begin, std::size_t end);
   void OnSpindleStopped(const motion::Motion& motion, std::uint64_t number);
   double AllowedDepth(const motion::Motion& motion);
   void OnContact(const motion::Motion& motion, std::uint64_t number, const Judgement& judgement,
@@ -82,8 +104,8 @@ class PairMonitor {
   PairSweep sweep_;
   std::unique_ptr<PairEngine> swept_engine_;
   std::unique_ptr<PairSweep> swept_;
-  int swept_wait_ = 0;   // motions until the swept pair is tried again
-  int swept_pause_ = 1;  // and how long the next wait is
+  std::optional<motion::PairTravel> bound_, swept_bound_;  // of the run at hand
+  Patience cross_, cross_swept_, check_swept_;
   RapidReference reference_;
   Run contact_, near_, stopped_;
   bool uncertified_ = false;

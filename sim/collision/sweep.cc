@@ -13,17 +13,14 @@ using motion::Motion;
 using motion::Span;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kGapOfBound = 0.2;
+constexpr double kFarthest = 1e5;         // mm, worth looking ahead
 constexpr double kFirstContact = 1e-3;    // of the motion
-constexpr double kFine = 0.02;            // mm, of a least clearance near the threshold
 constexpr double kDepthTolerance = 6e-3;  // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
 constexpr int kDepthQueries = 300;        // a motion
 constexpr int kDepthEvaluations = 2000;   // a query
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
-
-bool SamePose(const motion::JointVector& a, const motion::JointVector& b) {
-  return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() <= 1e-9;
-}
 
 PathPoint Middle(const Span& span) {
   return {0.5 * (span.s0 + span.s1), 0.5 * (span.lag0 + span.lag1)};
@@ -51,6 +48,10 @@ std::pair<Span, Span> Halve(const Motion& motion, const motion::PairPath& path, 
 
 }  // namespace
 
+bool SamePose(const motion::JointVector& a, const motion::JointVector& b) {
+  return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() <= 1e-9;
+}
+
 PairSweep::PairSweep(motion::PairPath path, PairEngine* engine)
     : path_(std::move(path)), engine_(engine) {}
 
@@ -68,9 +69,8 @@ void PairSweep::Include(const Interval& clearance, const SourcePosition& where) 
   }
 }
 
-void PairSweep::Accept(const Motion& motion, double clearance, bool track) {
+void PairSweep::Accept(const Motion& motion, double clearance) {
   known_ = {clearance, true, motion.q1()};
-  if (track) least_.lower = std::min(least_.lower, clearance);
 }
 
 double PairSweep::Need(const Watch& watch) const {
@@ -92,7 +92,7 @@ double PairSweep::Need(const Sweep& sweep) const {
   if (watch.track && least_.upper < kInfinity) {
     const double seen = std::min(least_.upper, watch.track_ceiling);
     const bool fine = seen < watch.track_below && !tired;
-    need = std::max(need, fine ? seen - kFine : (tired ? 0.5 : 0.75) * seen);
+    need = std::max(need, fine ? seen - watch.track_within : (tired ? 0.5 : 0.75) * seen);
   }
   if (tired) return need;
   if (watch.clearance > 0.0 && found >= watch.clearance) {
@@ -103,6 +103,70 @@ double PairSweep::Need(const Sweep& sweep) const {
     need = std::max(need, run - std::max(0.05, 0.1 * run));
   }
   return need;
+}
+
+// The clearance at a pose, as far as `enough` beyond what is needed; the first one of all to its
+// end, since what it shows is held against what is needed from then on.
+std::optional<Interval> PairSweep::Look(const Motion& motion, double s, const Watch& watch,
+                                        double enough) {
+  DistanceGoal goal;
+  goal.relative_gap = 0.2;
+  goal.floor = std::max(0.0, Need(watch));
+  if (!watch.track || has_least()) goal.stop_above = goal.floor + enough;
+  ++queries_;
+  const std::optional<Interval> clearance = engine_->Clearance(path_.path.Pose(motion.At(s)), goal);
+  if (clearance.has_value()) See(clearance->upper, motion.where, watch.track);
+  return clearance;
+}
+
+// Takes its stand at the start of a motion: clear of what is needed, and neither body inside the
+// other?
+bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
+  const std::optional<Interval> clearance = Look(motion, 0.0, watch, engine_->Budget(Need(watch)));
+  if (!clearance.has_value() || clearance->lower <= std::max(0.0, Need(watch)) ||
+      engine_->Contained(path_.path.Pose(motion.At(0.0)))) {
+    return false;
+  }
+  known_ = {clearance->lower, true, motion.q0()};
+  return true;
+}
+
+PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion::PairTravel& bound,
+                                     std::size_t begin, const Watch& watch) {
+  Crossing crossing{begin, kInfinity};
+  const bool stands = known_.outside && SamePose(known_.q, travel[begin].q0());
+  if (!stands && !Stand(travel[begin], watch)) return crossing;
+  const auto advance = [&](std::size_t end, double least, double clearance) {
+    crossing.end = end;
+    crossing.least = std::min(crossing.least, least);
+    known_ = {clearance, true, travel[end - 1].q1()};
+    if (watch.track) least_.lower = std::min(least_.lower, least);
+  };
+  if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
+  while (crossing.end < travel.size()) {
+    const std::size_t at = crossing.end;
+    const std::size_t covered = bound.Furthest(at, known_.clearance - std::max(0.0, Need(watch)));
+    if (covered > at) {
+      const double left = known_.clearance - bound.Between(at, covered);
+      advance(covered, left, left);
+      continue;
+    }
+    const std::size_t next = bound.Furthest(at, ahead_);
+    if (next == at) break;
+    const std::optional<Interval> clearance = Look(travel[next - 1], 1.0, watch, ahead_);
+    if (!clearance.has_value()) break;
+    // Far beyond what was asked for: ask for more. Not there: for what there is.
+    const double need = std::max(0.0, Need(watch));
+    const double spare = std::max(0.0, clearance->lower - need);
+    ahead_ = spare >= ahead_ ? std::min(2.0 * ahead_, kFarthest) : engine_->thrift() * spare;
+    const double left = clearance->lower - bound.Between(at, next);
+    if (left > need) {
+      advance(next, left, clearance->lower);
+    } else if (ahead_ <= 0.0 || bound.Furthest(at, ahead_) >= next) {
+      break;
+    }
+  }
+  return crossing;
 }
 
 SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
@@ -192,6 +256,9 @@ std::optional<Interval> PairSweep::Query(const Span& span, double bound, Sweep* 
   goal.relative_gap = 0.2;
   goal.floor = std::max(need, engine_->floor());
   goal.stop_below = sweep->watch.contact;
+  // Whatever the answer is, it is worth no more than what the pair may move by.
+  const double fine = sweep->watch.track ? 0.25 * sweep->watch.track_within : kInfinity;
+  goal.gap = std::max(goal.gap, std::min(kGapOfBound * bound, fine));
   if (least_.upper < kInfinity) {
     // Inside a motion a proof is enough; at its end, what is left serves the motions to come.
     goal.stop_above = span.s1 < 1.0 ? need + 1.25 * bound + kContactResolution
@@ -209,10 +276,13 @@ void PairSweep::Observe(const Interval& clearance, const PathPoint& at, Sweep* s
     sweep->result.least.upper = clearance.upper;
     sweep->result.least_at = at;
   }
-  if (sweep->watch.track && clearance.upper < least_.upper) {
-    least_.upper = clearance.upper;
-    least_where_ = sweep->motion->where;
-  }
+  See(clearance.upper, sweep->motion->where, sweep->watch.track);
+}
+
+void PairSweep::See(double clearance, const SourcePosition& where, bool track) {
+  if (!track || clearance >= least_.upper) return;
+  least_.upper = clearance;
+  least_where_ = where;
 }
 
 bool PairSweep::Accept(const Span& span, const Span& whole, const Interval& clearance, double bound,

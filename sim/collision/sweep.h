@@ -7,6 +7,7 @@
 
 #include "sim/collision/engine.h"
 #include "sim/motion/motion.h"
+#include "sim/motion/travel.h"
 
 namespace ncsim::collision {
 
@@ -26,13 +27,17 @@ struct Watch {
   double run_least = std::numeric_limits<double>::infinity();
   bool track = false;  ///< Keep the pair's least clearance (see PairSweep::least).
   double track_below =
-      0.0;  ///< From here down within 0.02 mm, above within a quarter of what is seen.
+      0.0;  ///< From here down within track_within, above within a quarter of what is seen.
+  double track_within = 0.02;  ///< mm
   /// A least clearance above this is of no interest (0 for cuts: only depths count).
   double track_ceiling = std::numeric_limits<double>::infinity();
   /// Gives up (uncertified) after this many poses; for attempts that need not succeed.
   int max_poses = std::numeric_limits<int>::max();
   bool find_first = true;  ///< On contact, find where it begins; else any pose in contact will do.
 };
+
+/// Equal joint positions, to rounding (1e-9).
+bool SamePose(const motion::JointVector& a, const motion::JointVector& b);
 
 struct PathPoint {
   double s = 0.0;
@@ -54,6 +59,16 @@ class PairSweep {
   /// `engine` outlives this.
   PairSweep(motion::PairPath path, PairEngine* engine);
 
+  /// The motions from `begin` on that are all clear by more than `watch` needs, found so without a
+  /// look at each: the first clearance covers what lies behind its pose, the next one what lies
+  /// before it.
+  struct Crossing {
+    std::size_t end = 0;  ///< The first motion that is not known to be clear.
+    double least = std::numeric_limits<double>::infinity();  ///< No pose is below it.
+  };
+  Crossing Cross(const motion::Travel& travel, const motion::PairTravel& bound, std::size_t begin,
+                 const Watch& watch);
+
   /// Motions in order; one that does not start where the last one ended is a jump, after which
   /// nothing is known.
   SweepResult Check(const motion::Motion& motion, const Watch& watch);
@@ -74,7 +89,7 @@ class PairSweep {
 
   Eigen::Isometry3d Pose(const motion::Motion& motion, const PathPoint& point) const;
   /// Takes over a proof from elsewhere: the motion is clear, at its end by `clearance` or more.
-  void Accept(const motion::Motion& motion, double clearance, bool track);
+  void Accept(const motion::Motion& motion, double clearance);
   /// What Check would have to prove for the whole motion, as far as is known before it.
   double Need(const Watch& watch) const;
   /// Certified clearance at the end of the last motion.
@@ -107,8 +122,12 @@ class PairSweep {
     int poses = 0;
   };
   double Need(const Sweep& sweep) const;
+  std::optional<Interval> Look(const motion::Motion& motion, double s, const Watch& watch,
+                               double enough);
+  bool Stand(const motion::Motion& motion, const Watch& watch);
   bool Start(Sweep* sweep);
   void Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep);
+  void See(double clearance, const SourcePosition& where, bool track);
   void Cover(const motion::Span& whole, Sweep* sweep);
   std::optional<Interval> Query(const motion::Span& span, double bound, Sweep* sweep);
   bool Accept(const motion::Span& span, const motion::Span& whole, const Interval& clearance,
@@ -123,6 +142,7 @@ class PairSweep {
   Interval least_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   SourcePosition least_where_;
   std::vector<motion::Span> stack_;
+  double ahead_ = 0.0;  // mm beyond what is needed that the next look ahead hopes for
   std::uint64_t queries_ = 0;
 };
 

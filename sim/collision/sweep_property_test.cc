@@ -161,5 +161,67 @@ TEST(SweepPropertyTest, NothingIsMissed) {
   EXPECT_GT(mesh_tally.clear, 8);
 }
 
+// Runs of motions: what Cross passes over is as clear as it says, at every sample.
+TEST(SweepPropertyTest, WhatIsCrossedIsClear) {
+  motion::Random random(77);
+  std::size_t crossed = 0;
+  std::uint64_t queries = 0;
+  int stopped = 0;
+  for (int i = 0; i < 150; ++i) {
+    const motion::TestMachine machine = kinematics::RandomMachine(&random);
+    const auto five_axis =
+        kinematics::FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
+    ASSERT_TRUE(five_axis.has_value());
+    const auto frame = std::make_shared<motion::TcpFrame>(motion::TcpFrame{*five_axis, 120.0, 0.0});
+    machine::Tool tool;
+    tool.length = 120.0;
+    tool.holder = PolyProfile({{0, 0}, {0, 6}, {40, 6}, {60, 20}, {120, 20}, {120, 0}});
+    const auto a =
+        std::make_shared<const ToolBody>(tool, machine::BodyKind::kHolder, machine.spindle_link);
+    std::vector<motion::Motion> motions;
+    for (int k = 0; k < 6; ++k) {
+      motion::Motion next = motion::RandomMotion(&random, motion::kPathKinds[random.Below(5)],
+                                                 machine, frame, random.Uniform(0.005, 0.1));
+      if (!motions.empty()) {
+        motions.push_back(motion::MakeMotion(motion::AxisLinear{motions.back().q1(), next.q0()}));
+      }
+      motions.push_back(std::move(next));
+    }
+    std::vector<const motion::Motion*> run;
+    for (const motion::Motion& motion : motions) run.push_back(&motion);
+    const motion::Travel travel(machine.tree, &*five_axis, 120.0, run);
+    const motion::JointVector q = motions[2].At(0.5);
+    const Eigen::Isometry3d X_BS = machine.tree.Pose(machine.table_link, q).inverse() *
+                                   machine.tree.Pose(machine.spindle_link, q);
+    const auto b = RandomBody(&random, machine.table_link,
+                              X_BS * Eigen::Vector3d(random.Uniform(-300, 300), 150.0, 110.0));
+    const auto engine = MakeEngine(a, b);
+    motion::PairPath path(machine.tree, a->extent, machine.table_link, &*five_axis);
+    path.revolved = true;
+    PairSweep sweep(path, engine.get());
+    Watch watch;
+    watch.track = true;
+    watch.clearance = random.Chance(0.5) ? 2.0 : 0.0;
+    const motion::PairTravel bound(sweep.path(), travel);
+    for (std::size_t at = 0; at < travel.size();) {
+      const PairSweep::Crossing crossing = sweep.Cross(travel, bound, at, watch);
+      for (std::size_t k = at; k < crossing.end; ++k) {
+        ASSERT_GE(Sample(motions[k], sweep, engine.get()).least, crossing.least - 1e-6)
+            << "case " << i << " motion " << k;
+      }
+      if (crossing.end > at) {
+        EXPECT_GT(crossing.least, watch.clearance);
+      }
+      crossed += crossing.end - at;
+      stopped += crossing.end < travel.size();
+      at = std::max(crossing.end, at + 1);
+    }
+    queries += sweep.queries();
+  }
+  EXPECT_GT(crossed, 300U);
+  EXPECT_GT(stopped, 50);
+  EXPECT_LT(queries, 2000U);
+}
+
 }  // namespace
 }  // namespace ncsim::collision

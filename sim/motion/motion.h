@@ -168,8 +168,12 @@ struct PairPath {
   kinematics::Extent a;  ///< Extent of body A (tool side where one of the two is).
   /// A is rigid with the spindle link and B with the table link: the TCP bound applies alone.
   bool tool_to_table = false;
-  /// Extent centre in S, when tool_to_table.
+  /// When tool_to_table: extent centre in S, and the rotary joints between.
   Eigen::Vector3d p_SC = Eigen::Vector3d::Zero();
+  std::vector<int> rotary;
+  /// A is a solid of revolution about S's Z axis: a turn about that moves nothing. Set by who
+  /// knows.
+  bool revolved = false;
   /// For other pairs with a rotary joint of the five between them (tool and trunnion, ram and
   /// table): a second bound.
   std::optional<Detour> detour;

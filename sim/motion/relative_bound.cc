@@ -70,6 +70,7 @@ PairPath::PairPath(const kinematics::KinematicTree& tree, const kinematics::Exte
   tool_to_table = way.table_from_b.rigid() && way.a_from_spindle.rigid();
   if (tool_to_table) {
     p_SC = way.a_from_spindle.Pose(JointVector::Zero(tree.num_moving())) * extent.p_LC;
+    rotary = five_axis->rotary();
     return;
   }
   const std::vector<int>& between = path.joint_indices();
