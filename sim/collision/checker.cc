@@ -164,6 +164,7 @@ CollisionResult CollisionChecker::Finish() {
   for (Monitors* monitors : all) {
     for (const auto& monitor : *monitors) {
       monitor->Finish();
+      result.queries += monitor->queries();
       const PairSweep& sweep = monitor->sweep();
       if (monitor->has_clearance()) {
         result.clearances.push_back(

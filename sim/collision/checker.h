@@ -3,6 +3,7 @@
 // control.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ struct CollisionResult {
   std::vector<Finding> findings;  ///< In program order; one for a run of blocks in contact.
   std::vector<PairClearance> clearances;
   std::vector<DeepestCut> cuts;
+  std::uint64_t queries = 0;  ///< Poses at which a clearance was computed, over all pairs.
 };
 
 /// Checks every pair of bodies that can move against each other, over the whole of every motion: an

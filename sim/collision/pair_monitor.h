@@ -41,6 +41,9 @@ class PairMonitor {
 
   const Pair& pair() const { return pair_; }
   const PairSweep& sweep() const { return sweep_; }
+  std::uint64_t queries() const {
+    return sweep_.queries() + (swept_ == nullptr ? 0 : swept_->queries());
+  }
   /// sweep().least() holds over the whole program.
   bool has_clearance() const;
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/bench/checker_run.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace ncsim::bench {
+namespace {
+
+constexpr machine::Profile machine::Tool::*kToolBodies[] = {
+    &machine::Tool::flutes, &machine::Tool::shank, &machine::Tool::holder};
+
+/// Cuts a window so that no more than `*left` motions are left in all.
+const motion::Window& Cut(const motion::Window& window, std::size_t left, motion::Window* storage) {
+  if (window.motions.size() <= left) return window;
+  storage->motions.assign(window.motions.begin(),
+                          window.motions.begin() + static_cast<std::ptrdiff_t>(left));
+  return *storage;
+}
+
+/// One pair: its bodies, and nothing else.
+struct Scene {
+  machine::Scene scene;
+  machine::ToolTable tools;
+  std::unique_ptr<collision::CollisionChecker> checker;
+  PairRun run;
+};
+
+std::vector<std::unique_ptr<Scene>> SinglePairs(const BenchJob& job) {
+  std::vector<std::unique_ptr<Scene>> scenes;
+  const auto add = [&](Scene scene) {
+    scenes.push_back(std::make_unique<Scene>(std::move(scene)));
+    Scene& kept = *scenes.back();
+    kept.checker = std::make_unique<collision::CollisionChecker>(job.machine, kept.scene,
+                                                                 kept.tools, job.job.check);
+  };
+  const auto& bodies = job.scene.bodies;
+  machine::Tool bare = job.job.tools.front();
+  for (const auto body : kToolBodies) (bare.*body).elements.clear();
+  const char* const names[] = {"flutes", "shank", "holder"};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      Scene scene;
+      scene.scene.bodies = {bodies[i]};
+      scene.tools.tools = {bare};
+      scene.tools.tools.front().*kToolBodies[k] = job.job.tools.front().*kToolBodies[k];
+      scene.run.names = std::string(names[k]) + " - " + bodies[i].name;
+      add(std::move(scene));
+    }
+    for (std::size_t k = i + 1; k < bodies.size(); ++k) {
+      Scene scene;
+      scene.scene.bodies = {bodies[i], bodies[k]};
+      scene.tools.tools = {bare};
+      scene.run.names = bodies[i].name + " - " + bodies[k].name;
+      add(std::move(scene));
+    }
+  }
+  return scenes;
+}
+
+}  // namespace
+
+double ProcessCpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+CheckerRun RunChecker(const BenchJob& job, std::size_t motions) {
+  CheckerRun run;
+  const machine::ToolTable tools{job.job.tools};
+  double start = ProcessCpuSeconds();
+  collision::CollisionChecker checker(job.machine, job.scene, tools, job.job.check);
+  run.setup_seconds = ProcessCpuSeconds() - start;
+  motion::Window cut;
+  ForEachWindow(job, [&](const motion::Window& window) {
+    const motion::Window& part = Cut(window, motions - run.motions, &cut);
+    const double begin = ProcessCpuSeconds();
+    checker.Check(part);
+    run.seconds += ProcessCpuSeconds() - begin;
+    run.motions += part.motions.size();
+    return run.motions < motions;
+  });
+  start = ProcessCpuSeconds();
+  run.result = checker.Finish();
+  run.seconds += ProcessCpuSeconds() - start;
+  return run;
+}
+
+std::vector<PairRun> RunPairs(const BenchJob& job, std::size_t motions) {
+  std::vector<std::unique_ptr<Scene>> scenes = SinglePairs(job);
+  std::size_t done = 0;
+  motion::Window cut;
+  ForEachWindow(job, [&](const motion::Window& window) {
+    const motion::Window& part = Cut(window, motions - done, &cut);
+    for (const auto& scene : scenes) {
+      const double begin = ProcessCpuSeconds();
+      scene->checker->Check(part);
+      scene->run.seconds += ProcessCpuSeconds() - begin;
+    }
+    done += part.motions.size();
+    return done < motions;
+  });
+  std::vector<PairRun> runs;
+  for (const auto& scene : scenes) {
+    const double begin = ProcessCpuSeconds();
+    const collision::CollisionResult result = scene->checker->Finish();
+    scene->run.seconds += ProcessCpuSeconds() - begin;
+    if (result.queries == 0) continue;  // rigid, or declared no pair
+    scene->run.queries = result.queries;
+    scene->run.proven_mm = scene->run.seen_mm = std::numeric_limits<double>::quiet_NaN();
+    if (!result.clearances.empty()) {
+      scene->run.proven_mm = result.clearances.front().proven_mm;
+      scene->run.seen_mm = result.clearances.front().seen_mm;
+    }
+    runs.push_back(scene->run);
+  }
+  std::sort(runs.begin(), runs.end(),
+            [](const PairRun& a, const PairRun& b) { return a.seconds > b.seconds; });
+  return runs;
+}
+
+}  // namespace ncsim::bench
