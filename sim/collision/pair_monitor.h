@@ -3,7 +3,6 @@
 // into one finding each.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -16,6 +15,7 @@
 #include "sim/collision/contact_text.h"
 #include "sim/collision/engine.h"
 #include "sim/collision/pairs.h"
+#include "sim/collision/patience.h"
 #include "sim/collision/sweep.h"
 #include "sim/machine/machine.h"
 
@@ -48,21 +48,6 @@ class PairMonitor {
   bool has_clearance() const;
 
  private:
-  /// How long something that did not help is left alone.
-  class Patience {
-   public:
-    bool Ready() { return wait_ == 0 || --wait_ == 0; }
-    void Helped() { pause_ = 1; }
-    void Failed() {
-      wait_ = pause_;
-      pause_ = std::min(2 * pause_, 64);
-    }
-
-   private:
-    int wait_ = 0;   // motions until it is tried again
-    int pause_ = 1;  // and how long the next wait is
-  };
-
   /// Consecutive blocks with the same fault.
   struct Run {
     RunFinding blocks;

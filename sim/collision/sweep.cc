@@ -105,25 +105,36 @@ double PairSweep::Need(const Sweep& sweep) const {
   return need;
 }
 
-// The clearance at a pose, as far as `enough` beyond what is needed; the first one of all to its
-// end, since what it shows is held against what is needed from then on.
+// The clearance at a pose of a motion, as far as `enough` beyond what is needed; the first one of
+// all to its end, since what it shows is held against what is needed from then on.
 std::optional<Interval> PairSweep::Look(const Motion& motion, double s, const Watch& watch,
                                         double enough) {
   DistanceGoal goal;
   goal.relative_gap = 0.2;
-  goal.floor = std::max(0.0, Need(watch));
+  goal.floor = Spared(watch);
   if (!watch.track || has_least()) goal.stop_above = goal.floor + enough;
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(path_.path.Pose(motion.At(s)), goal);
-  if (clearance.has_value()) See(clearance->upper, motion.where, watch.track);
+  if (!clearance.has_value()) return clearance;
+  See(clearance->upper, motion.where, watch.track);
+  Expect(clearance->lower - Spared(watch));
   return clearance;
 }
+
+// Far beyond what was asked for: ask for more next time. Not there: for what there is.
+void PairSweep::Expect(double spare) {
+  ahead_ = spare >= ahead_ ? std::max(std::min(2.0 * ahead_, kFarthest), engine_->thrift() * spare)
+                           : engine_->thrift() * std::max(0.0, spare);
+}
+
+double PairSweep::Spared(const Watch& watch) const { return std::max(0.0, Need(watch)); }
 
 // Takes its stand at the start of a motion: clear of what is needed, and neither body inside the
 // other?
 bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
-  const std::optional<Interval> clearance = Look(motion, 0.0, watch, engine_->Budget(Need(watch)));
-  if (!clearance.has_value() || clearance->lower <= std::max(0.0, Need(watch)) ||
+  if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
+  const std::optional<Interval> clearance = Look(motion, 0.0, watch, ahead_);
+  if (!clearance.has_value() || clearance->lower <= Spared(watch) ||
       engine_->Contained(path_.path.Pose(motion.At(0.0)))) {
     return false;
   }
@@ -131,40 +142,68 @@ bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
   return true;
 }
 
+// The motions from `at` on that stay in the neighbourhood of one pose, clear of what is needed. The
+// neighbourhood is connected, and the pair is outside each other at `at`, so nothing is contained.
+PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t at,
+                                  std::size_t path_end, const Watch& watch) {
+  for (std::size_t level = bound.levels(); level-- > 0;) {
+    const motion::PairTravel::Neighbourhood around = bound.Around(at, level);
+    if (around.radius > 0.8 * ahead_) continue;
+    if (around.end <= path_end) break;  // the path gets further
+    DistanceGoal goal;
+    goal.relative_gap = 0.2;
+    goal.floor = Spared(watch) + around.radius;
+    goal.stop_above = goal.floor + std::max(kContactResolution, 0.25 * around.radius);
+    goal.stop_below = goal.floor;
+    ++queries_;
+    const std::optional<Interval> clearance = engine_->Clearance(around.X_BA, goal);
+    if (clearance.has_value() && clearance->lower > goal.floor) {
+      around_.Helped();
+      return {around.end, clearance->lower - around.radius, clearance->lower - around.radius};
+    }
+    around_.Failed();
+    break;
+  }
+  return {at, 0.0, 0.0};
+}
+
+// The motions from `at` on that a look at the end of one of them covers backward.
+PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::PairTravel& bound,
+                                 std::size_t at, const Watch& watch) {
+  std::size_t next = bound.Furthest(at, ahead_);
+  while (next > at) {
+    const std::optional<Interval> clearance = Look(travel[next - 1], 1.0, watch, ahead_);
+    if (!clearance.has_value()) break;
+    const double left = clearance->lower - bound.Between(at, next);
+    if (left > Spared(watch)) return {next, left, clearance->lower};
+    const std::size_t shorter = bound.Furthest(at, ahead_);
+    if (shorter >= next) break;
+    next = shorter;
+  }
+  return {at, 0.0, 0.0};
+}
+
 PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion::PairTravel& bound,
                                      std::size_t begin, const Watch& watch) {
   Crossing crossing{begin, kInfinity};
   const bool stands = known_.outside && SamePose(known_.q, travel[begin].q0());
   if (!stands && !Stand(travel[begin], watch)) return crossing;
-  const auto advance = [&](std::size_t end, double least, double clearance) {
-    crossing.end = end;
-    crossing.least = std::min(crossing.least, least);
-    known_ = {clearance, true, travel[end - 1].q1()};
-    if (watch.track) least_.lower = std::min(least_.lower, least);
-  };
-  if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
   while (crossing.end < travel.size()) {
     const std::size_t at = crossing.end;
-    const std::size_t covered = bound.Furthest(at, known_.clearance - std::max(0.0, Need(watch)));
-    if (covered > at) {
-      const double left = known_.clearance - bound.Between(at, covered);
-      advance(covered, left, left);
-      continue;
+    if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
+    Step step;
+    step.end = bound.Furthest(at, known_.clearance - Spared(watch));
+    step.least = step.clearance = known_.clearance - bound.Between(at, step.end);
+    if (step.end < travel.size() && around_.Ready()) {
+      const Step around = Around(bound, at, step.end, watch);
+      if (around.end > step.end) step = around;
     }
-    const std::size_t next = bound.Furthest(at, ahead_);
-    if (next == at) break;
-    const std::optional<Interval> clearance = Look(travel[next - 1], 1.0, watch, ahead_);
-    if (!clearance.has_value()) break;
-    // Far beyond what was asked for: ask for more. Not there: for what there is.
-    const double need = std::max(0.0, Need(watch));
-    const double spare = std::max(0.0, clearance->lower - need);
-    ahead_ = spare >= ahead_ ? std::min(2.0 * ahead_, kFarthest) : engine_->thrift() * spare;
-    const double left = clearance->lower - bound.Between(at, next);
-    if (left > need) {
-      advance(next, left, clearance->lower);
-    } else if (ahead_ <= 0.0 || bound.Furthest(at, ahead_) >= next) {
-      break;
-    }
+    if (step.end == at) step = Ahead(travel, bound, at, watch);
+    if (step.end == at) break;
+    crossing.end = step.end;
+    crossing.least = std::min(crossing.least, step.least);
+    known_ = {step.clearance, true, travel[step.end - 1].q1()};
+    if (watch.track) least_.lower = std::min(least_.lower, step.least);
   }
   return crossing;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/collision/engine.h"
+#include "sim/collision/patience.h"
 #include "sim/motion/motion.h"
 #include "sim/motion/travel.h"
 
@@ -124,7 +125,19 @@ class PairSweep {
   double Need(const Sweep& sweep) const;
   std::optional<Interval> Look(const motion::Motion& motion, double s, const Watch& watch,
                                double enough);
+  /// A step of a Crossing: to `end`, clear by `least` all the way and by `clearance` there.
+  struct Step {
+    std::size_t end = 0;
+    double least = 0.0;
+    double clearance = 0.0;
+  };
+  void Expect(double spare);
+  double Spared(const Watch& watch) const;
   bool Stand(const motion::Motion& motion, const Watch& watch);
+  Step Around(const motion::PairTravel& bound, std::size_t at, std::size_t path_end,
+              const Watch& watch);
+  Step Ahead(const motion::Travel& travel, const motion::PairTravel& bound, std::size_t at,
+             const Watch& watch);
   bool Start(Sweep* sweep);
   void Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep);
   void See(double clearance, const SourcePosition& where, bool track);
@@ -142,6 +155,7 @@ class PairSweep {
   Interval least_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   SourcePosition least_where_;
   std::vector<motion::Span> stack_;
+  Patience around_;
   double ahead_ = 0.0;  // mm beyond what is needed that the next look ahead hopes for
   std::uint64_t queries_ = 0;
 };

@@ -70,59 +70,131 @@ Measures OfJoints(const Motion& motion, const kinematics::KinematicTree& tree) {
   return measures;
 }
 
+/// All that is within `change` of both ends.
+template <class Vector, class Change>
+void Enclose(const Vector& a, const Vector& b, const Change& change, Vector* lower, Vector* upper) {
+  *lower = lower->cwiseMin(a.cwiseMax(b) - change);
+  *upper = upper->cwiseMax(a.cwiseMin(b) + change);
+}
+
+Travel::Box EmptyBox(Eigen::Index joints) {
+  Travel::Box box;
+  box.lower = JointVector::Constant(joints, kInfinity);
+  box.upper = -box.lower;
+  box.tip_lower = box.axis_lower = Eigen::Vector3d::Constant(kInfinity);
+  box.tip_upper = box.axis_upper = -box.tip_lower;
+  return box;
+}
+
+Travel::Box Union(const Travel::Box& a, const Travel::Box& b) {
+  return {a.lower.cwiseMin(b.lower),           a.upper.cwiseMax(b.upper),
+          a.tip_lower.cwiseMin(b.tip_lower),   a.tip_upper.cwiseMax(b.tip_upper),
+          a.axis_lower.cwiseMin(b.axis_lower), a.axis_upper.cwiseMax(b.axis_upper)};
+}
+
+/// Measures motions of one tool.
+class Meter {
+ public:
+  struct ToolPose {
+    Eigen::Vector3d tip = Eigen::Vector3d::Zero();
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  };
+
+  Meter(const kinematics::KinematicTree& tree, const kinematics::FiveAxis* five_axis, double length)
+      : tree_(tree), five_axis_(five_axis), length_(length) {
+    if (five_axis == nullptr) return;
+    tip_path_.emplace(tree, five_axis->table_link(), five_axis->spindle_link());
+    tip_ = {five_axis->spindle_link(), {0.0, 0.0, length}, 0.0};
+  }
+
+  ToolPose ToolAt(const JointVector& q) const {
+    ToolPose pose;
+    if (five_axis_ != nullptr) five_axis_->TipInTable(q, length_, &pose.tip, &pose.axis);
+    return pose;
+  }
+
+  Measures Of(const Motion& motion) const {
+    const auto* curve = std::get_if<TcpCurve>(&motion.path);
+    Measures measures = curve != nullptr ? OfTcp(*curve) : OfJoints(motion, tree_);
+    if (five_axis_ == nullptr) return measures;
+    measures.axis = std::max(AxisChange(*five_axis_, motion.q0(), measures.joints),
+                             AxisChange(*five_axis_, motion.q1(), measures.joints));
+    if (curve != nullptr) {
+      // The control leads its own tip; the metal's is somewhere else on the tool's axis.
+      measures.tip += std::abs(curve->frame->length - length_) * measures.axis;
+    } else {
+      measures.tip = std::max(tip_path_->Bound(motion.q0(), tip_, measures.joints),
+                              tip_path_->Bound(motion.q1(), tip_, measures.joints));
+    }
+    return measures;
+  }
+
+ private:
+  const kinematics::KinematicTree& tree_;
+  const kinematics::FiveAxis* five_axis_;
+  double length_;
+  std::optional<kinematics::RelativePath> tip_path_;
+  kinematics::Extent tip_;
+};
+
 }  // namespace
 
 Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis* five_axis,
                double tool_length, std::vector<const Motion*> motions)
     : motions_(std::move(motions)), tool_length_(tool_length) {
-  const auto joints = static_cast<std::size_t>(tree.num_moving());
-  width_ = joints + 3;
+  width_ = static_cast<std::size_t>(tree.num_moving()) + 3;
   sums_.assign(width_ * (motions_.size() + 1), 0.0);
-  JointVector lower = JointVector::Constant(tree.num_moving(), kInfinity);
-  JointVector upper = -lower;
-  std::optional<kinematics::RelativePath> tip_path;
-  kinematics::Extent tip;
-  if (five_axis != nullptr) {
-    tip_path.emplace(tree, five_axis->table_link(), five_axis->spindle_link());
-    tip = {five_axis->spindle_link(), {0.0, 0.0, tool_length}, 0.0};
-  }
+  boxes_.emplace_back((motions_.size() + kLeaf - 1) / kLeaf, EmptyBox(tree.num_moving()));
+  if (motions_.empty()) return;
+  const Meter meter(tree, five_axis, tool_length);
+  Meter::ToolPose from = meter.ToolAt(motions_.front()->q0());
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& motion = *motions_[i];
-    const auto* curve = std::get_if<TcpCurve>(&motion.path);
-    Measures measures = curve != nullptr ? OfTcp(*curve) : OfJoints(motion, tree);
-    if (curve != nullptr) {
-      length_error_ = std::max(length_error_, std::abs(curve->frame->length - tool_length));
-    }
-    if (five_axis != nullptr) {
-      if (curve == nullptr) {
-        measures.tip = std::max(tip_path->Bound(motion.q0(), tip, measures.joints),
-                                tip_path->Bound(motion.q1(), tip, measures.joints));
-      }
-      measures.axis = std::max(AxisChange(*five_axis, motion.q0(), measures.joints),
-                               AxisChange(*five_axis, motion.q1(), measures.joints));
-    }
-    lower = lower.cwiseMin(motion.q0() - measures.joints);
-    upper = upper.cwiseMax(motion.q0() + measures.joints);
+    const Measures measures = meter.Of(motion);
     corner_rounding_ = std::max(corner_rounding_, motion.facts.corner_rounding);
-    const double* before = row(i);
-    double* after = sums_.data() + (i + 1) * width_;
-    for (std::size_t k = 0; k < joints; ++k) {
-      after[k] = before[k] + measures.joints[static_cast<Eigen::Index>(k)];
-    }
-    after[joints] = before[joints] + measures.linear;
-    after[joints + 1] = before[joints + 1] + measures.tip;
-    after[joints + 2] = before[joints + 2] + measures.axis;
+    const Meter::ToolPose to = meter.ToolAt(motion.q1());
+    Box& box = boxes_[0][i / kLeaf];
+    const auto all = [](double change) { return Eigen::Vector3d::Constant(change); };
+    Enclose(motion.q0(), motion.q1(), measures.joints, &box.lower, &box.upper);
+    Enclose(from.tip, to.tip, all(measures.tip), &box.tip_lower, &box.tip_upper);
+    Enclose(from.axis, to.axis, all(measures.axis), &box.axis_lower, &box.axis_upper);
+    AddSums(i, measures.joints, measures.linear, measures.tip, measures.axis);
+    from = to;
   }
-  middle_ = 0.5 * (lower + upper);
-  half_ = 0.5 * (upper - lower);
+  AddLevels();
+}
+
+void Travel::AddSums(std::size_t i, const JointVector& joints, double linear, double tip,
+                     double axis) {
+  const double* before = row(i);
+  double* after = sums_.data() + (i + 1) * width_;
+  const auto count = static_cast<std::size_t>(joints.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    after[k] = before[k] + joints[static_cast<Eigen::Index>(k)];
+  }
+  after[count] = before[count] + linear;
+  after[count + 1] = before[count + 1] + tip;
+  after[count + 2] = before[count + 2] + axis;
+}
+
+void Travel::AddLevels() {
+  while (boxes_.back().size() > 1) {
+    const std::vector<Box>& below = boxes_.back();
+    std::vector<Box> level;
+    for (std::size_t i = 0; i < below.size(); i += 2) {
+      level.push_back(i + 1 < below.size() ? Union(below[i], below[i + 1]) : below[i]);
+    }
+    boxes_.push_back(std::move(level));
+  }
 }
 
 PairTravel::PairTravel(const PairPath& pair, const Travel& travel)
-    : travel_(&travel), weights_(travel.width(), 0.0) {
+    : pair_(&pair), travel_(&travel), weights_(travel.width(), 0.0) {
   const std::size_t joints = travel.width() - 3;
   if (!pair.tool_to_table) {
+    const Travel::Box& all = travel.box(travel.levels() - 1, 0);
     const kinematics::TravelWeights weights =
-        pair.path.Weights(travel.middle(), travel.half(), pair.a);
+        pair.path.Weights(0.5 * (all.lower + all.upper), 0.5 * (all.upper - all.lower), pair.a);
     for (std::size_t k = 0; k < joints; ++k) {
       weights_[k] = weights.joints[static_cast<Eigen::Index>(k)];
     }
@@ -133,12 +205,12 @@ PairTravel::PairTravel(const PairPath& pair, const Travel& travel)
   // its axis turns, any other by as much as the rotary joints do.
   weights_[joints + 1] = 1.0;
   const Eigen::Vector3d p_ST(0.0, 0.0, travel.tool_length());
-  const double reach = (pair.p_SC - p_ST).norm() + pair.a.radius + travel.length_error();
+  reach_ = (pair.p_SC - p_ST).norm() + pair.a.radius;
   if (pair.revolved) {
-    weights_[joints + 2] = reach;
+    weights_[joints + 2] = reach_;
     return;
   }
-  for (const int joint : pair.rotary) weights_[static_cast<std::size_t>(joint)] = reach;
+  for (const int joint : pair.rotary) weights_[static_cast<std::size_t>(joint)] = reach_;
 }
 
 double PairTravel::Between(std::size_t i, std::size_t j) const {
@@ -147,6 +219,29 @@ double PairTravel::Between(std::size_t i, std::size_t j) const {
   double sum = kSumError;
   for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * (to[k] - from[k]);
   return sum;
+}
+
+PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level) const {
+  const std::size_t stretch = Travel::kLeaf << level;
+  const Travel::Box& box = travel_->box(level, i / stretch);
+  Neighbourhood around;
+  around.end = std::min(travel_->size(), (i / stretch + 1) * stretch);
+  if (!pair_->revolved) {
+    const JointVector q = 0.5 * (box.lower + box.upper);
+    around.X_BA = pair_->path.Pose(q);
+    around.radius = kSumError + pair_->path.Bound(q, pair_->a, 0.5 * (box.upper - box.lower));
+    return around;
+  }
+  const Eigen::Vector3d middle = 0.5 * (box.axis_lower + box.axis_upper);
+  const Eigen::Vector3d axis = middle.norm() > 0.1 ? middle.normalized() : Eigen::Vector3d::UnitZ();
+  const double turn = 0.5 * (box.axis_upper - box.axis_lower).norm() + (middle - axis).norm();
+  around.X_BA.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -axis).toRotationMatrix();
+  around.X_BA.translation() = 0.5 * (box.tip_lower + box.tip_upper) + travel_->tool_length() * axis;
+  around.X_BA = around.X_BA * pair_->X_SA;
+  around.radius =
+      kSumError + 0.5 * (box.tip_upper - box.tip_lower).norm() + std::min(turn, 2.0) * reach_;
+  return around;
 }
 
 // The totals only grow: strides that double, then halves.

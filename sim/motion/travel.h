@@ -17,6 +17,15 @@ namespace ncsim::motion {
 /// table's frame (mm), and the change of the tool axis there (of a unit vector).
 class Travel {
  public:
+  /// Where everything stays during a stretch of motions: joints; tool tip and tool axis (unit, tip
+  /// to gauge line) in the table's frame.
+  struct Box {
+    JointVector lower, upper;
+    Eigen::Vector3d tip_lower, tip_upper, axis_lower, axis_upper;
+  };
+  /// Motions of the shortest stretch that has a box.
+  static constexpr std::size_t kLeaf = 32;
+
   /// The motions must outlive it. `tool_length`: gauge line to tip of the tool in the spindle; 0
   /// without. `five_axis` may be null: then the tip's measures are not used.
   Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis* five_axis,
@@ -25,12 +34,11 @@ class Travel {
   std::size_t size() const { return motions_.size(); }
   const Motion& operator[](std::size_t i) const { return *motions_[i]; }
   double tool_length() const { return tool_length_; }
-  /// Greatest difference between tool_length() and the length that the control believes in, mm.
-  double length_error() const { return length_error_; }
 
-  /// Every pose of every motion has its joints in middle() +- half().
-  const JointVector& middle() const { return middle_; }
-  const JointVector& half() const { return half_; }
+  /// Boxes of stretches of kLeaf * 2^level motions, the last one perhaps shorter; the highest level
+  /// has one, of all motions.
+  std::size_t levels() const { return boxes_.size(); }
+  const Box& box(std::size_t level, std::size_t i) const { return boxes_[level][i]; }
   /// Greatest Facts::corner_rounding.
   double corner_rounding() const { return corner_rounding_; }
 
@@ -39,10 +47,12 @@ class Travel {
   const double* row(std::size_t i) const { return sums_.data() + i * width_; }
 
  private:
+  void AddSums(std::size_t i, const JointVector& joints, double linear, double tip, double axis);
+  void AddLevels();
+
   std::vector<const Motion*> motions_;
   double tool_length_ = 0.0;
-  double length_error_ = 0.0;
-  JointVector middle_, half_;
+  std::vector<std::vector<Box>> boxes_;
   double corner_rounding_ = 0.0;
   std::size_t width_ = 0;
   std::vector<double> sums_;
@@ -51,6 +61,7 @@ class Travel {
 /// What a pair makes of a Travel's totals.
 class PairTravel {
  public:
+  /// Both outlive this.
   PairTravel(const PairPath& pair, const Travel& travel);
 
   /// Upper bound of how far any point of A gets, as seen from B, from where it is at one end of the
@@ -59,9 +70,21 @@ class PairTravel {
   /// The last j in [i, size()] with Between(i, j) < `limit`, and i where there is none.
   std::size_t Furthest(std::size_t i, double limit) const;
 
+  /// A pose, and how far from it any point of A is at any pose of the motions [begin, end).
+  struct Neighbourhood {
+    Eigen::Isometry3d X_BA;
+    double radius = 0.0;  ///< mm
+    std::size_t end = 0;
+  };
+  /// Of the stretch of `level` that motion i is in.
+  Neighbourhood Around(std::size_t i, std::size_t level) const;
+  std::size_t levels() const { return travel_->levels(); }
+
  private:
+  const PairPath* pair_;
   const Travel* travel_;
   std::vector<double> weights_;
+  double reach_ = 0.0;  // tip to the farthest point of A, mm
 };
 
 }  // namespace ncsim::motion

@@ -17,16 +17,20 @@ using kinematics::FiveAxis;
 
 constexpr int kSteps = 12;
 
-/// Two random motions and the way between them.
+/// Two random motions and the way between them; now and then rests enough for more than one box.
 std::vector<Motion> RandomRun(Random* random, const TestMachine& machine,
                               const std::shared_ptr<const TcpFrame>& frame) {
   const double scale = std::pow(10.0, random->Uniform(-3.0, 0.0));
   const auto any = [&] {
     return RandomMotion(random, kPathKinds[random->Below(5)], machine, frame, scale);
   };
-  const Motion first = any();
+  std::vector<Motion> motions{any()};
+  const JointVector q = motions.front().q1();
+  if (random->Chance(0.1)) motions.resize(Travel::kLeaf + 2, MakeMotion(AxisLinear{q, q}));
   const Motion last = any();
-  return {first, MakeMotion(AxisLinear{first.q1(), last.q0()}), last};
+  motions.push_back(MakeMotion(AxisLinear{q, last.q0()}));
+  motions.push_back(last);
+  return motions;
 }
 
 std::vector<const Motion*> Pointers(const std::vector<Motion>& motions) {
@@ -62,6 +66,15 @@ void Hold(const std::vector<Motion>& motions, const PairPath& pair, const Travel
       }
       for (const JointVector& q : Poses(motions[i])) {
         ASSERT_LE(moved(X_end, pair.path.Pose(q)), bound.Between(i, j));
+      }
+    }
+  }
+  for (std::size_t level = 0; level < travel.levels(); ++level) {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const PairTravel::Neighbourhood around = bound.Around(i, level);
+      ASSERT_GT(around.end, i);
+      for (const JointVector& q : Poses(motions[i])) {
+        ASSERT_LE(moved(around.X_BA, pair.path.Pose(q)), around.radius);
       }
     }
   }
