@@ -240,7 +240,8 @@ void PairSweep::Cover(const Span& whole, Sweep* sweep) {
   while (!stack_.empty()) {
     const Span span = stack_.back();
     stack_.pop_back();
-    if (result.contact && span.s1 - span.s0 <= kFirstContact) continue;
+    // Spans come from left to right: a short one may still be the first of many that are not clear.
+    if (result.contact && result.first.s - span.s0 <= kFirstContact) continue;
     const PathPoint middle = Middle(span);
     const double bound = motion::RelativeBound(*sweep->motion, path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance = Query(span, bound, sweep);
