@@ -17,7 +17,7 @@ constexpr double kFirstContact = 1e-3;    // of the motion
 constexpr double kFine = 0.02;            // mm, of a least clearance near the threshold
 constexpr double kDepthTolerance = 6e-3;  // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
-constexpr int kDepthQueries = 300;        // a motion
+constexpr int kDepthQueries = 1000;      // a motion
 constexpr int kDepthEvaluations = 2000;   // a query
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
