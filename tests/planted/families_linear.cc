@@ -282,7 +282,7 @@ std::optional<Case> LongRapid(Random* random, bool hit) {
 
 std::optional<Case> HolderInPocket(Random* random, bool hit) {
   const Upright place(random);
-  Cutter holder{random->Uniform(20.0, 60.0), 0.0, random->Uniform(6.0, 25.0), 0.0, false};
+  Cutter holder{random->Uniform(20.0, 60.0), 0.0, random->Uniform(6.0, 20.0), 0.0, false};
   holder.z1 = holder.z0 + random->Uniform(30.0, 80.0);
   if (random->Chance(0.3)) holder.corner = random->Uniform(0.5, 5.0);
   const double across = random->Uniform(-30.0, 30.0);
