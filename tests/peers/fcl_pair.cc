@@ -9,31 +9,20 @@
 
 namespace ncsim::peers {
 
-namespace {
+struct FclBody::Model {
+  fcl::BVHModel<fcl::OBBRSSd> bvh;
+};
 
-template <typename Volume>
-void Fill(const machine::TriangleMesh& mesh, fcl::BVHModel<Volume>* model) {
+FclBody::FclBody(const machine::TriangleMesh& mesh) : model_(std::make_unique<Model>()) {
   std::vector<fcl::Triangle> triangles;
   for (const auto& t : mesh.triangles) {
     triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
                            static_cast<std::size_t>(t[2]));
   }
-  model->beginModel();
-  model->addSubModel(mesh.vertices, triangles);
-  model->endModel();
-  model->computeLocalAABB();
-}
-
-}  // namespace
-
-struct FclBody::Model {
-  fcl::BVHModel<fcl::OBBRSSd> obb_rss;
-  fcl::BVHModel<fcl::RSSd> rss;
-};
-
-FclBody::FclBody(const machine::TriangleMesh& mesh) : model_(std::make_unique<Model>()) {
-  Fill(mesh, &model_->obb_rss);
-  Fill(mesh, &model_->rss);
+  model_->bvh.beginModel();
+  model_->bvh.addSubModel(mesh.vertices, triangles);
+  model_->bvh.endModel();
+  model_->bvh.computeLocalAABB();
 }
 
 FclBody::~FclBody() = default;
@@ -41,25 +30,20 @@ FclBody::~FclBody() = default;
 bool Collides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA) {
   const fcl::CollisionRequestd request;
   fcl::CollisionResultd result;
-  fcl::collide(&a.model_->obb_rss, X_BA, &b.model_->obb_rss, fcl::Transform3d::Identity(), request,
-               result);
+  fcl::collide(&a.model_->bvh, X_BA, &b.model_->bvh, fcl::Transform3d::Identity(), request, result);
   return result.isCollision();
 }
 
 bool ContinuousCollides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA0,
-                        const Eigen::Isometry3d& X_BA1, Volumes volumes) {
+                        const Eigen::Isometry3d& X_BA1, Solver solver) {
   fcl::ContinuousCollisionRequestd request;
   request.ccd_motion_type = fcl::CCDM_LINEAR;
-  request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  if (solver == Solver::kConservativeAdvancement) {
+    request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  }
   fcl::ContinuousCollisionResultd result;
   const fcl::Transform3d rest = fcl::Transform3d::Identity();
-  if (volumes == Volumes::kRss) {
-    fcl::continuousCollide(&a.model_->rss, X_BA0, X_BA1, &b.model_->rss, rest, rest, request,
-                           result);
-  } else {
-    fcl::continuousCollide(&a.model_->obb_rss, X_BA0, X_BA1, &b.model_->obb_rss, rest, rest,
-                           request, result);
-  }
+  fcl::continuousCollide(&a.model_->bvh, X_BA0, X_BA1, &b.model_->bvh, rest, rest, request, result);
   return result.is_collide;
 }
 

@@ -9,11 +9,14 @@
 
 namespace ncsim::peers {
 
-/// Bounding volumes of a BVHModel: OBBRSS is what FCL's own examples use; RSS is the only one for
-/// which its conservative advancement knows a motion bound.
-enum class Volumes { kObbRss, kRss };
+/// How fcl::continuousCollide is asked; both with CCDM_LINEAR (the translation in proportion, the
+/// rotation about one axis).
+enum class Solver {
+  kDefault,                  ///< CCDC_NAIVE: 10 poses.
+  kConservativeAdvancement,  ///< CCDC_CONSERVATIVE_ADVANCEMENT.
+};
 
-/// A mesh, as models of both kinds.
+/// A mesh as BVHModel<OBBRSS>.
 class FclBody {
  public:
   explicit FclBody(const machine::TriangleMesh& mesh);
@@ -24,17 +27,16 @@ class FclBody {
  private:
   friend bool Collides(const FclBody&, const FclBody&, const Eigen::Isometry3d&);
   friend bool ContinuousCollides(const FclBody&, const FclBody&, const Eigen::Isometry3d&,
-                                 const Eigen::Isometry3d&, Volumes);
+                                 const Eigen::Isometry3d&, Solver);
   struct Model;
   std::unique_ptr<Model> model_;
 };
 
-/// fcl::collide (OBBRSS) of `a` at X_BA with `b` at rest.
+/// fcl::collide of `a` at X_BA with `b` at rest.
 bool Collides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA);
 
-/// fcl::continuousCollide of `a` from one pose to the other with `b` at rest: linear and spherical
-/// interpolation (CCDM_LINEAR), conservative advancement.
+/// fcl::continuousCollide of `a` from one pose to the other with `b` at rest.
 bool ContinuousCollides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA0,
-                        const Eigen::Isometry3d& X_BA1, Volumes volumes);
+                        const Eigen::Isometry3d& X_BA1, Solver solver);
 
 }  // namespace ncsim::peers

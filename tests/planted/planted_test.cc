@@ -63,14 +63,12 @@ struct Score {
 struct Row {
   int cases = 0;
   int hits = 0;
-  Score ncsim, continuous_obb_rss, continuous_rss, sampled;
+  Score ncsim, continuous, advancement, sampled;
 
   std::string Ours() const {
     return "| " + std::to_string(cases) + " | " + std::to_string(hits) + " |" + ncsim.Cell();
   }
-  std::string Peers() const {
-    return continuous_obb_rss.Cell() + continuous_rss.Cell() + sampled.Cell();
-  }
+  std::string Peers() const { return continuous.Cell() + advancement.Cell() + sampled.Cell(); }
 };
 
 Case Draw(const Family& family, int index) {
@@ -170,8 +168,8 @@ void RunPeers(const Case& c, double true_clearance, Row* row) {
                                     : !data.shank.empty() ? data.shank
                                                           : data.holder;
   const peers::FclBody tool(collision::Tessellate(profile, data.length, kSagitta));
-  bool obb_rss = false;
-  bool rss = false;
+  bool continuous = false;
+  bool advancement = false;
   bool sampled = false;
   for (const machine::SceneBody& scene_body : c.rig.scene().bodies) {
     const peers::FclBody body(scene_body.mesh);
@@ -179,16 +177,16 @@ void RunPeers(const Case& c, double true_clearance, Row* row) {
       if (motion.facts.tool != c.tool) continue;
       const Eigen::Isometry3d X_BS0 = ToolInTable(c, motion.At(0.0));
       const Eigen::Isometry3d X_BS1 = ToolInTable(c, motion.At(1.0));
-      const auto continuous = [&](peers::Volumes volumes) {
-        return peers::ContinuousCollides(tool, body, X_BS0, X_BS1, volumes);
+      const auto hits = [&](peers::Solver solver) {
+        return peers::ContinuousCollides(tool, body, X_BS0, X_BS1, solver);
       };
-      obb_rss = obb_rss || continuous(peers::Volumes::kObbRss);
-      rss = rss || continuous(peers::Volumes::kRss);
+      continuous = continuous || hits(peers::Solver::kDefault);
+      advancement = advancement || hits(peers::Solver::kConservativeAdvancement);
       sampled = sampled || SampledHit(c, motion, tool, body);
     }
   }
-  row->continuous_obb_rss.Count(obb_rss, true_clearance);
-  row->continuous_rss.Count(rss, true_clearance);
+  row->continuous.Count(continuous, true_clearance);
+  row->advancement.Count(advancement, true_clearance);
   row->sampled.Count(sampled, true_clearance);
 }
 
