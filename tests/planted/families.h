@@ -19,6 +19,7 @@ std::optional<Case> DogLegAccelerated(Random* random, bool hit);
 std::optional<Case> TcpDip(Random* random, bool hit);
 std::optional<Case> FarRotation(Random* random, bool hit);
 std::optional<Case> HolderInPocket(Random* random, bool hit);
+std::optional<Case> HeadOverTable(Random* random, bool hit);
 std::optional<Case> WrapAt360(Random* random, bool hit);
 
 }  // namespace ncsim::planted

@@ -106,6 +106,13 @@ void Case::SetTool(const Cutter& the_cutter, BodyKind kind, int number) {
   rig.facts().tool = number;
 }
 
+void Case::SetHead(const machine::TriangleMesh& head_S) {
+  head = head_S;
+  tool = 0;
+  rig.facts().tool = 0;
+  rig.AddBody("head", BodyKind::kMachine, head, rig.machine().spindle_link);
+}
+
 void Case::AddBody(const Solid& solid, const Isometry3d& X_BG, const Vector3d& offset,
                    const std::vector<Course>& courses) {
   PairTruth truth;

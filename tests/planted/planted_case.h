@@ -46,7 +46,8 @@ struct FirstContact {
 /// What is true of a pair of the tool and a body.
 struct PairTruth {
   std::string body;
-  Bounds clearance;  ///< Least over the program: minus the depth for a hit.
+  bool has_depth = true;  ///< False: pairs of two meshes, of which no depth is told.
+  Bounds clearance;       ///< Least over the program: minus the depth for a hit.
   std::optional<FirstContact> first;
 };
 
@@ -72,6 +73,8 @@ struct Case {
 
   /// The tool, as flutes, shank or holder; in the spindle from here on.
   void SetTool(const Cutter& the_cutter, machine::BodyKind kind, int number = kTool);
+  /// A machine body as the head, and no tool.
+  void SetHead(const machine::TriangleMesh& head_S);
   /// A body on the table; its truth is of `courses`.
   void AddBody(const Solid& solid, const Eigen::Isometry3d& X_BG, const Eigen::Vector3d& offset,
                const std::vector<Course>& courses);
@@ -82,7 +85,9 @@ struct Case {
   Table table;
   collision::Rig rig;
   Cutter cutter;
-  int tool = kTool;  ///< The one that the truth is about.
+  int tool = kTool;  ///< The one that the truth is about; 0: the head.
+  /// A machine body on the spindle link instead of a tool, in frame S.
+  machine::TriangleMesh head;
   std::vector<PairTruth> pairs;
 };
 
