@@ -18,7 +18,7 @@ constexpr double kFarthest = 1e5;         // mm, worth looking ahead
 constexpr double kFirstContact = 1e-3;    // of the motion
 constexpr double kDepthTolerance = 6e-3;  // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
-constexpr int kDepthQueries = 300;        // a motion
+constexpr int kDepthQueries = 1000;      // a motion
 constexpr int kDepthEvaluations = 2000;   // a query
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
@@ -349,7 +349,8 @@ void PairSweep::Cover(const Span& whole, Sweep* sweep) {
   while (!stack_.empty()) {
     const Span span = stack_.back();
     stack_.pop_back();
-    if (result.contact && span.s1 - span.s0 <= kFirstContact) continue;
+    // Spans come from left to right: a short one may still be the first of many that are not clear.
+    if (result.contact && result.first.s - span.s0 <= kFirstContact) continue;
     const PathPoint middle = Middle(span);
     const double bound = motion::RelativeBound(*sweep->motion, path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance = Query(span, bound, sweep);

@@ -45,6 +45,7 @@ class Rig {
   }
 
   machine::Machine& machine() { return machine_; }
+  const machine::Machine& machine() const { return machine_; }
   machine::CheckSettings& check() { return check_; }
 
   machine::Tool& AddTool(int number, machine::Profile flutes, machine::Profile shank,
