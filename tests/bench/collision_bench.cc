@@ -74,10 +74,10 @@ bool Parse(int argc, char** argv, Options* options) {
   for (int i = 1; i < argc; ++i) {
     if (std::string(argv[i]) == "--smoke") {
       options->smoke = true;
-      options->spec.blocks = 1'000;
+      options->spec.blocks = 600;
       options->spec.triangles = 2'000;
-      options->budget = 0.5;
-      options->large = 2'000;
+      options->budget = 0.3;
+      options->large = 1'000;
     } else if (i + 1 >= argc || !Set(argv[i], argv[i + 1], options)) {
       return false;
     } else {
@@ -104,7 +104,7 @@ std::string LoadAverage() {
 }
 
 bench::GrowthPlan Plan(const Options& options) {
-  if (options.smoke) return {{500, 1'000}, {1'000, 2'000}, {0, 2}, {0.0, 2.0}};
+  if (options.smoke) return {{500, 1'000}, {1'000, 2'000}, {0, 1}, {1.0}};
   const int most = std::min(options.large, 1'000'000);
   bench::GrowthPlan plan{
       {}, {1'000, 10'000, 100'000, 1'000'000}, {0, 5, 10, 20, 40}, {0, 1, 2, 3, 5}};

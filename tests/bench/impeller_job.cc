@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "sim/base/text.h"
 #include "sim/base/units.h"
+#include "sim/collision/tessellate.h"
 #include "sim/control/controller.h"
 #include "sim/machine/load.h"
 #include "tests/bench/bench_machine.h"
@@ -140,6 +142,22 @@ std::optional<BenchJob> MakeImpellerJob(const ImpellerSpec& spec, const std::str
   made.machine = *std::move(machine);
   made.job = *std::move(job);
   return made;
+}
+
+BenchJob WithToolAsMeshes(BenchJob job) {
+  machine::Tool& tool = job.job.tools.front();
+  const std::pair<const char*, machine::Profile*> parts[] = {{"shank", &tool.shank},
+                                                             {"holder", &tool.holder}};
+  for (const auto& [name, profile] : parts) {
+    machine::SceneBody body;
+    body.name = std::string("mesh of ") + name;
+    body.kind = machine::BodyKind::kFixture;
+    body.link = job.machine.spindle_link;
+    body.mesh = collision::Tessellate(*profile, tool.length);
+    job.scene.bodies.push_back(std::move(body));
+    profile->elements.clear();
+  }
+  return job;
 }
 
 bool ForEachWindow(const BenchJob& job,

@@ -25,7 +25,7 @@ namespace {
 using namespace ncsim;
 using PairNames = std::set<std::set<std::string>>;
 
-constexpr int kBlocks = 600;
+constexpr int kBlocks = 300;
 
 class ImpellerJob : public testing::Test {
  protected:
@@ -114,6 +114,25 @@ TEST_F(ImpellerJob, IsClearForAllAndTheyLookAtTheSamePairs) {
     }
     EXPECT_EQ(theirs, ours);
   }
+}
+
+TEST_F(ImpellerJob, WithTheToolAsMeshesTheClearancesAreTheSame) {
+  const auto least = [](const bench::BenchJob& job, const std::string& tool) {
+    const bench::CheckerRun run = bench::RunChecker(job, kBlocks);
+    EXPECT_THAT(run.result.findings, testing::IsEmpty());
+    for (const auto& clearance : run.result.clearances) {
+      const auto& names = clearance.bodies;
+      if (std::find(names.begin(), names.end(), tool) == names.end()) continue;
+      if (std::find(names.begin(), names.end(), "part") != names.end()) return clearance;
+    }
+    return collision::PairClearance();
+  };
+  const collision::PairClearance profile = least(*job_, "T1.shank");
+  const collision::PairClearance mesh = least(bench::WithToolAsMeshes(*job_), "mesh of shank");
+  // Each proven clearance is below what the other has seen; the mesh is 0.005 mm outside.
+  ASSERT_GT(profile.proven_mm, 1.0);
+  EXPECT_LE(profile.proven_mm, mesh.seen_mm + 0.01);
+  EXPECT_LE(mesh.proven_mm, profile.seen_mm);
 }
 
 TEST_F(ImpellerJob, APlantedCrashIsFoundByAll) {
