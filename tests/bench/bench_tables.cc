@@ -117,11 +117,11 @@ bool PrintDistances(const BenchJob& job, double budget_seconds) {
 bool PrintText(const std::string& ncsim, const ImpellerSpec& spec, const std::string& folder,
                const std::vector<TextRun>& runs) {
   std::printf(
-      "| blocks | jobs | wall s | CPU s | blocks/s of wall time | peak MB | of it private "
-      "| exit code |\n"
-      "|---|---|---|---|---|---|---|---|\n");
+      "| blocks | jobs | wall s | CPU s | blocks/s of wall time | blocks/s of CPU time "
+      "| peak MB | of it private | exit code |\n"
+      "|---|---|---|---|---|---|---|---|---|\n");
   bool passed = true;
-  double first_seconds = 0.0;
+  ChildRun first;
   for (const TextRun& text : runs) {
     ImpellerSpec longer = spec;
     longer.blocks = text.blocks;
@@ -129,15 +129,16 @@ bool PrintText(const std::string& ncsim, const ImpellerSpec& spec, const std::st
     if (!job) return false;
     const ChildRun run = RunChild(
         {ncsim, "check", job->program, "--assume", "all", "--jobs", std::to_string(text.jobs)});
-    std::printf("| %d | %d | %.2f | %.2f | %.0f | %.0f | %.0f | %d |\n", text.blocks, text.jobs,
-                run.wall_seconds, run.cpu_seconds, text.blocks / run.wall_seconds, run.peak_mb,
-                run.peak_private_mb, run.exit_code);
-    if (&text == &runs.front()) {
-      first_seconds = run.wall_seconds;
-    } else if (text.blocks > runs.front().blocks) {
-      std::printf("| each of the further %d | %d | | | %.0f | | | |\n",
-                  text.blocks - runs.front().blocks, text.jobs,
-                  (text.blocks - runs.front().blocks) / (run.wall_seconds - first_seconds));
+    std::printf("| %d | %d | %.2f | %.2f | %.0f | %.0f | %.0f | %.0f | %d |\n", text.blocks,
+                text.jobs, run.wall_seconds, run.cpu_seconds, text.blocks / run.wall_seconds,
+                text.blocks / run.cpu_seconds, run.peak_mb, run.peak_private_mb, run.exit_code);
+    const int more = text.blocks - runs.front().blocks;
+    if (more > 0) {
+      std::printf("| the further %d | %d | | | %.0f | %.0f | | | |\n", more, text.jobs,
+                  more / (run.wall_seconds - first.wall_seconds),
+                  more / (run.cpu_seconds - first.cpu_seconds));
+    } else {
+      first = run;
     }
     std::fflush(stdout);
     passed = passed && run.exit_code == 0;
