@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -63,6 +66,20 @@ TEST(Impeller, IsAClosedSolidOfTheStatedFineness) {
     EXPECT_EQ(machine::CheckMesh(&mesh).defect, "");
     EXPECT_TRUE(mesh.watertight);
   }
+}
+
+TEST(ImpellerPath, IsTheSameForTheSameSeedAndHasTheStatedBlocks) {
+  const auto text = [](std::uint32_t seed) {
+    bench::ImpellerPath::Options options;
+    options.seed = seed;
+    std::ostringstream out;
+    bench::ImpellerPath(options).Write(2'000, out);
+    return out.str();
+  };
+  const std::string program = text(1);
+  EXPECT_EQ(program, text(1));
+  EXPECT_NE(program, text(2));
+  EXPECT_EQ(std::count(program.begin(), program.end(), '\n'), 2'000 + 20);
 }
 
 TEST(BlockMesh, OfABoxWithAHoleHasItsVolume) {
