@@ -21,13 +21,8 @@ struct LinkShape {
 /// In link coordinates (mm), as the links stand with all axes at machine zero.
 std::vector<LinkShape> LinkShapes() {
   std::vector<LinkShape> shapes;
-  shapes.push_back({"base", BlockMesh({{{-980, -750, -1150}, {220, 250, -900}},
-                                       {{-1050, 400, -1150}, {290, 1000, -150}},
-                                       {{-520, -770, -900}, {-240, -640, -380}}},
-                                      60)});
-  shapes.push_back({"enclosure", BlockMesh({{{-1250, -1000, -1200}, {490, 1100, 1150}},
-                                            {{-1200, -950, -1150}, {440, 1050, 1100}, true}},
-                                           120)});
+  shapes.push_back({"base", BlockMesh({{{-980, -750, -1150}, {220, 400, -900}}}, 50)});
+  shapes.push_back({"rear", BlockMesh({{{-1050, 400, -1150}, {290, 1000, -150}}}, 80)});
   shapes.push_back({"tool_changer", BlockMesh({{{-1150, -600, 0}, {-1020, -100, 500}},
                                                {{-1150, -400, 500}, {-1080, -300, 900}}},
                                               40)});
@@ -60,7 +55,7 @@ std::vector<JointText> Joints() {
   const std::string speed = "velocity=\"0.38166\" effort=\"0\"";
   const std::string turn = "velocity=\"0.87266\" effort=\"0\"";
   return {
-      {"enclosure_mount", "fixed", "base", "enclosure", zero, zero, "", ""},
+      {"rear_mount", "fixed", "base", "rear", zero, zero, "", ""},
       {"tool_changer_mount", "fixed", "base", "tool_changer", zero, zero, "", ""},
       {"b_drive_mount", "fixed", "base", "b_drive", zero, zero, "", ""},
       {"X", "prismatic", "base", "column", zero, zero, "1 0 0",
@@ -102,7 +97,7 @@ std::string Urdf(const std::vector<LinkShape>& shapes) {
 /// Guides and bearings.
 std::string Srdf() {
   const std::vector<std::pair<std::string, std::string>> adjacent = {
-      {"base", "column"},   {"column", "ram"},       {"ram", "head"},
+      {"rear", "column"},   {"column", "ram"},       {"ram", "head"},
       {"base", "trunnion"}, {"b_drive", "trunnion"}, {"trunnion", "platter"}};
   std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"bench\">\n";
   for (const auto& [a, b] : adjacent) {

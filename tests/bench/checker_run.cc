@@ -14,12 +14,11 @@ namespace {
 constexpr machine::Profile machine::Tool::*kToolBodies[] = {
     &machine::Tool::flutes, &machine::Tool::shank, &machine::Tool::holder};
 
-/// Cuts a window so that no more than `*left` motions are left in all.
-const motion::Window& Cut(const motion::Window& window, std::size_t left, motion::Window* storage) {
-  if (window.motions.size() <= left) return window;
-  storage->motions.assign(window.motions.begin(),
-                          window.motions.begin() + static_cast<std::ptrdiff_t>(left));
-  return *storage;
+motion::Window Slice(const motion::Window& window, std::size_t begin, std::size_t end) {
+  motion::Window slice;
+  slice.motions.assign(window.motions.begin() + static_cast<std::ptrdiff_t>(begin),
+                       window.motions.begin() + static_cast<std::ptrdiff_t>(end));
+  return slice;
 }
 
 /// One pair: its bodies, and nothing else.
@@ -70,18 +69,33 @@ double ProcessCpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-CheckerRun RunChecker(const BenchJob& job, std::size_t motions) {
+std::size_t FirstCut(const motion::Window& window) {
+  const auto first = std::find_if(
+      window.motions.begin(), window.motions.end(),
+      [](const motion::Motion& motion) { return motion.facts.tcp && motion::IsFeed(motion); });
+  return static_cast<std::size_t>(first - window.motions.begin());
+}
+
+CheckerRun RunChecker(const BenchJob& job, std::size_t motions, Approach approach) {
   CheckerRun run;
   const machine::ToolTable tools{job.job.tools};
   double start = ProcessCpuSeconds();
   collision::CollisionChecker checker(job.machine, job.scene, tools, job.job.check);
   run.setup_seconds = ProcessCpuSeconds() - start;
-  motion::Window cut;
+  motion::Window part;
+  bool timed = approach == Approach::kTimed;
   ForEachWindow(job, [&](const motion::Window& window) {
-    const motion::Window& part = Cut(window, motions - run.motions, &cut);
-    const double begin = ProcessCpuSeconds();
+    std::size_t begin = 0;
+    if (!timed) {
+      begin = FirstCut(window);
+      timed = begin < window.motions.size();
+      part = Slice(window, 0, begin);
+      checker.Check(part);
+    }
+    part = Slice(window, begin, std::min(window.motions.size(), begin + motions - run.motions));
+    const double from = ProcessCpuSeconds();
     checker.Check(part);
-    run.seconds += ProcessCpuSeconds() - begin;
+    run.seconds += ProcessCpuSeconds() - from;
     run.motions += part.motions.size();
     return run.motions < motions;
   });
@@ -94,9 +108,8 @@ CheckerRun RunChecker(const BenchJob& job, std::size_t motions) {
 std::vector<PairRun> RunPairs(const BenchJob& job, std::size_t motions) {
   std::vector<std::unique_ptr<Scene>> scenes = SinglePairs(job);
   std::size_t done = 0;
-  motion::Window cut;
   ForEachWindow(job, [&](const motion::Window& window) {
-    const motion::Window& part = Cut(window, motions - done, &cut);
+    const motion::Window part = Slice(window, 0, std::min(window.motions.size(), motions - done));
     for (const auto& scene : scenes) {
       const double begin = ProcessCpuSeconds();
       scene->checker->Check(part);

@@ -25,8 +25,14 @@ struct CheckerRun {
   double motions_per_second() const { return static_cast<double>(motions) / seconds; }
 };
 
-/// All pairs, over the first `motions` of the program.
-CheckerRun RunChecker(const BenchJob& job, std::size_t motions);
+/// The way from the tool changer to the part is long, and no part of what a program repeats.
+enum class Approach { kTimed, kUntimed };
+
+/// All pairs, over the first `motions` of the program; an untimed approach does not count.
+CheckerRun RunChecker(const BenchJob& job, std::size_t motions,
+                      Approach approach = Approach::kTimed);
+/// The first feed under TCP in the window, or its end.
+std::size_t FirstCut(const motion::Window& window);
 
 struct PairRun {
   std::string names;

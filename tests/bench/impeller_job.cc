@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "sim/base/text.h"
 #include "sim/base/units.h"
+#include "sim/collision/tessellate.h"
 #include "sim/control/controller.h"
 #include "sim/machine/load.h"
 #include "tests/bench/bench_machine.h"
@@ -38,9 +40,9 @@ std::string JobText(const ImpellerSpec& spec) {
       "] }\n"
       "[[tool]]\nnumber = 1\nname = \"BALL 8\"\nlength = 160.0\n"
       "cutter = { type = \"ball\", diameter = 8.0, corner_radius = 4.0, flute_length = 20.0 }\n"
-      "shank = [ { lower = 8.5, upper = 18.0, height = 18.0 },"
-      " { lower = 18.0, upper = 18.0, height = 5.0 } ]\n"
-      "holder = [ { lower = 28.0, upper = 42.0, height = 30.0 },"
+      "shank = [ { lower = 10.0, upper = 14.0, height = 18.0 },"
+      " { lower = 16.0, upper = 16.0, height = 5.0 } ]\n"
+      "holder = [ { lower = 34.0, upper = 40.0, height = 30.0 },"
       " { lower = 50.0, upper = 50.0, height = 50.0 },"
       " { lower = 63.0, upper = 63.0, height = 37.0 } ]\n"
       "[[fixture]]\nname = \"fixture\"\nmesh = \"fixture.stl\"\nunit = \"mm\"\n"
@@ -140,6 +142,22 @@ std::optional<BenchJob> MakeImpellerJob(const ImpellerSpec& spec, const std::str
   made.machine = *std::move(machine);
   made.job = *std::move(job);
   return made;
+}
+
+BenchJob WithToolAsMeshes(BenchJob job) {
+  machine::Tool& tool = job.job.tools.front();
+  const std::pair<const char*, machine::Profile*> parts[] = {{"shank", &tool.shank},
+                                                             {"holder", &tool.holder}};
+  for (const auto& [name, profile] : parts) {
+    machine::SceneBody body;
+    body.name = std::string("mesh of ") + name;
+    body.kind = machine::BodyKind::kFixture;
+    body.link = job.machine.spindle_link;
+    body.mesh = collision::Tessellate(*profile, tool.length);
+    job.scene.bodies.push_back(std::move(body));
+    profile->elements.clear();
+  }
+  return job;
 }
 
 bool ForEachWindow(const BenchJob& job,

@@ -48,6 +48,10 @@ struct BenchJob {
 /// Writes the files of a job into `folder` and loads them; trouble is written to stderr.
 std::optional<BenchJob> MakeImpellerJob(const ImpellerSpec& spec, const std::string& folder);
 
+/// The same job with shank and holder as meshes on the spindle: the checker then has FCL alone for
+/// them, as for machine links.
+BenchJob WithToolAsMeshes(BenchJob job);
+
 /// Interprets the program and hands on its motions in windows of motion::kWindowSize, until
 /// `on_window` returns false. Returns false where the control reports an error.
 bool ForEachWindow(const BenchJob& job,

@@ -61,7 +61,7 @@ Eigen::Vector3d Impeller::Normal(double angle, double z) {
 machine::TriangleMesh Impeller::Mesh(int triangles) {
   // Rings: over the bottom, up the side, over the top.
   const int rings = std::max(8, static_cast<int>(std::sqrt(triangles / 3.0)));
-  const int sides = std::max(3 * kFins, triangles / (2 * rings) / kFins * kFins);
+  const int sides = std::max(3 * kFins, triangles / (2 * rings));
   const int cap = std::max(1, rings / 6);
   return GlobeMesh(rings, sides, {0, 0, 0}, {0, 0, kHeight}, [&](int ring, int side) {
     const double angle = 2.0 * kPi * side / sides;
