@@ -48,6 +48,8 @@ class RelativePath {
   bool rigid() const { return indices_.empty(); }
   /// JointVector indices of the joints on the path, from b to a.
   const std::vector<int>& joint_indices() const { return indices_; }
+  /// Of joint_indices()[k].
+  bool revolute(std::size_t k) const { return chain_.steps()[k].revolute; }
   /// True when a joint of the path differs between `q0` and `q1`.
   bool MovesBetween(const JointVector& q0, const JointVector& q1) const;
 

@@ -233,7 +233,7 @@ void PairMonitor::OnContact(const Motion& motion, std::uint64_t number, const Ju
   }
   touched_ = true;
   contact_.blocks.Add(motion.where);
-  Deepen(motion, judgement.watch.track, &contact_);
+  Deepen(motion, result.first, judgement.watch.track, &contact_);
   // One warning a tool is enough: until the stock is simulated there is nothing more to say.
   if (pair_.role == PairRole::kOtherBlank && severity == Severity::kWarning) {
     CloseContact();
@@ -248,11 +248,12 @@ void PairMonitor::OnFirstCut(std::uint64_t number, const SweepResult& result) {
   blank_->s = result.first.s;
 }
 
-void PairMonitor::Deepen(const Motion& motion, bool track, Run* run) {
+void PairMonitor::Deepen(const Motion& motion, const PathPoint& contact, bool track, Run* run) {
   if (!engine_->has_depth()) return;
   const double known = run->blocks.blocks() > 1 ? run->least : kInfinity;
   PathPoint at;
-  const Interval depth = sweep_.Deepest(motion, run->with_lag, known, &run->depth_budget, &at);
+  const Interval depth =
+      sweep_.Deepest(motion, contact, run->with_lag, known, &run->depth_budget, &at);
   run->least = std::min(run->least, depth.upper);
   if (track) sweep_.Include({depth.lower, depth.upper}, motion.where);
   if (run->blocks.blocks() == 1 && depth.upper < -kConfirmDepth) Confirm(motion, run->number, at);

@@ -70,7 +70,7 @@ class PairMonitor {
   void OnClear(const motion::Motion& motion, std::uint64_t number, const Judgement& judgement,
                const SweepResult& result);
   void OnFirstCut(std::uint64_t number, const SweepResult& result);
-  void Deepen(const motion::Motion& motion, bool track, Run* run);
+  void Deepen(const motion::Motion& motion, const PathPoint& contact, bool track, Run* run);
   void Confirm(const motion::Motion& motion, std::uint64_t number, const PathPoint& at);
   void ReportOnce(Rule rule, const motion::Motion& motion, std::uint64_t number,
                   std::string message);

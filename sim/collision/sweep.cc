@@ -14,11 +14,13 @@ using motion::Span;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGapOfBound = 0.2;
+constexpr std::size_t kMemory = 20000;    // poses of a pair
 constexpr double kFarthest = 1e5;         // mm, worth looking ahead
 constexpr double kFirstContact = 1e-3;    // of the motion
 constexpr double kDepthTolerance = 6e-3;  // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
-constexpr int kDepthQueries = 1000;      // a motion
+constexpr int kDepthQueries = 1000;       // a motion
+constexpr int kNearQueries = 60;          // of them near the contact
 constexpr int kDepthEvaluations = 2000;   // a query
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
@@ -142,28 +144,53 @@ bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
   return true;
 }
 
+// A clearance near one pose of the grid; programs come back to it.
+std::optional<double> PairSweep::Recall(const motion::PairTravel::Neighbourhood& around) const {
+  if (!around.key.has_value()) return std::nullopt;
+  const auto found = memory_.find(*around.key);
+  return found == memory_.end() ? std::nullopt : std::optional<double>(found->second);
+}
+
+std::optional<double> PairSweep::Explore(const motion::PairTravel::Neighbourhood& around,
+                                         double enough) {
+  DistanceGoal goal;
+  goal.relative_gap = 0.1;
+  goal.stop_above = enough + 0.5 * ahead_;
+  if (!around.key.has_value()) goal.stop_below = enough;
+  ++queries_;
+  const std::optional<Interval> clearance = engine_->Clearance(around.X_BA, goal);
+  if (!clearance.has_value()) return std::nullopt;
+  if (around.key.has_value()) {
+    if (memory_.size() >= kMemory) memory_.clear();
+    memory_[*around.key] = clearance->lower;
+  }
+  return clearance->lower;
+}
+
 // The motions from `at` on that stay in the neighbourhood of one pose, clear of what is needed. The
 // neighbourhood is connected, and the pair is outside each other at `at`, so nothing is contained.
 PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t at,
                                   std::size_t path_end, const Watch& watch) {
-  for (std::size_t level = bound.levels(); level-- > 0;) {
-    const motion::PairTravel::Neighbourhood around = bound.Around(at, level);
-    if (around.radius > 0.8 * ahead_) continue;
+  const int grid = static_cast<int>(std::floor(std::log2(std::max(0.4 * ahead_, 1e-3))));
+  bool explored = false;
+  for (std::size_t level = std::min(bound.levels(), level_ + 2); level-- > 0;) {
+    const motion::PairTravel::Neighbourhood around = bound.Around(at, level, grid);
     if (around.end <= path_end) break;  // the path gets further
-    DistanceGoal goal;
-    goal.relative_gap = 0.2;
-    goal.floor = Spared(watch) + around.radius;
-    goal.stop_above = goal.floor + std::max(kContactResolution, 0.25 * around.radius);
-    goal.stop_below = goal.floor;
-    ++queries_;
-    const std::optional<Interval> clearance = engine_->Clearance(around.X_BA, goal);
-    if (clearance.has_value() && clearance->lower > goal.floor) {
-      around_.Helped();
-      return {around.end, clearance->lower - around.radius, clearance->lower - around.radius};
+    const double enough = Spared(watch) + around.radius;
+    std::optional<double> clearance = Recall(around);
+    if ((!clearance.has_value() || *clearance <= enough) && around.radius < 0.9 * ahead_ &&
+        !explored) {
+      explored = true;
+      clearance = Explore(around, enough);
     }
-    around_.Failed();
-    break;
+    if (clearance.has_value() && *clearance > enough) {
+      around_.Helped();
+      level_ = level;
+      return {around.end, *clearance - around.radius, *clearance - around.radius};
+    }
   }
+  if (level_ > 0) --level_;
+  if (explored) around_.Failed();
   return {at, 0.0, 0.0};
 }
 
@@ -391,47 +418,60 @@ std::optional<Interval> PairSweep::At(const Motion& motion, const PathPoint& poi
   return engine_->Solid(Pose(motion, point), goal);
 }
 
-Interval PairSweep::Deepest(const Motion& motion, bool with_lag, double known, int* budget,
-                            PathPoint* at) {
+Interval PairSweep::Deepest(const Motion& motion, const PathPoint& contact, bool with_lag,
+                            double known, int* budget, PathPoint* at) {
+  const Span box = motion::Whole(motion);
+  Span whole = box;
+  if (!with_lag) whole.lag0 = whole.lag1 = 0.0;
+  // A small contact on a long way: what is deepest near it is found first.
+  Span near = whole;
+  near.s0 = std::max(whole.s0, contact.s - kFirstContact);
+  near.s1 = std::min(whole.s1, contact.s + kFirstContact);
+  Deepening search{known, {kInfinity, kInfinity}, at};
+  Deepen(motion, near, kNearQueries, &search);
+  search.best.lower = kInfinity;
+  Deepen(motion, whole, std::min(kDepthQueries, *budget), &search);
+  *budget -= search.queries;
+  if (whole.lag1 < box.lag1) search.best.lower = engine_->floor();
+  return search.best;
+}
+
+// Best first; leaves a lower bound of the whole span in `search`.
+void PairSweep::Deepen(const Motion& motion, const Span& whole, int queries, Deepening* search) {
   struct Piece {
     double estimate;
     double lower;
     Span span;
     bool operator<(const Piece& o) const { return estimate > o.estimate; }
   };
-  Interval best{kInfinity, kInfinity};
-  double limit = known;  // nothing above this is of interest
+  Interval& best = search->best;
   std::vector<Piece> heap;
-  int queries = 0;
+  const int last = search->queries + queries;
   const auto look = [&](const Span& span) {
     const PathPoint middle = Middle(span);
     const double bound = motion::RelativeBound(motion, path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance =
-        At(motion, middle, limit - kDepthTolerance + bound, 0.25 * bound);
-    ++queries;
+        At(motion, middle, search->limit - kDepthTolerance + bound, 0.25 * bound);
+    ++search->queries;
     if (!clearance.has_value()) {
       best.lower = engine_->floor();
       return;
     }
     if (clearance->upper < best.upper) {
       best.upper = clearance->upper;
-      *at = middle;
-      limit = std::min(limit, best.upper);
+      *search->at = middle;
+      search->limit = std::min(search->limit, best.upper);
     }
     // The witness is what is reported, so the search follows what it may become.
     heap.push_back({std::max(clearance->upper - bound, engine_->floor()),
                     std::max(clearance->lower - bound, engine_->floor()), span});
     std::push_heap(heap.begin(), heap.end());
   };
-  const Span box = motion::Whole(motion);
-  Span whole = box;
-  if (!with_lag) whole.lag0 = whole.lag1 = 0.0;
-  if (whole.lag1 < box.lag1) best.lower = engine_->floor();
   look(whole);
   // The ends are where a plunge is deepest.
   look({whole.s1, whole.s1, whole.lag0, whole.lag0});
-  while (!heap.empty() && heap.front().estimate < limit - kDepthTolerance &&
-         queries < std::min(kDepthQueries, *budget)) {
+  while (!heap.empty() && heap.front().estimate < search->limit - kDepthTolerance &&
+         search->queries < last) {
     const Piece piece = heap.front();
     std::pop_heap(heap.begin(), heap.end());
     heap.pop_back();
@@ -444,8 +484,6 @@ Interval PairSweep::Deepest(const Motion& motion, bool with_lag, double known, i
     look(second);
   }
   for (const Piece& piece : heap) best.lower = std::min(best.lower, piece.lower);
-  *budget -= queries;
-  return best;
 }
 
 }  // namespace ncsim::collision

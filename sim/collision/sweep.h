@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "sim/collision/engine.h"
@@ -77,12 +78,12 @@ class PairSweep {
   /// As Check, but leaves the pair where it was before the motion.
   SweepResult Probe(const motion::Motion& motion, const Watch& watch);
 
-  /// Clearance (negative) at the deepest pose of a motion that is known to be in contact, to 0.01
+  /// Clearance (negative) at the deepest pose of a motion that is known to be in `contact`, to 0.01
   /// mm: at lag 0, or with all lags. `known` is the depth that is not worth looking for. `budget`
   /// counts down poses; without one left, only the middle and the end are looked at. `upper` is
   /// what was found, +inf for nothing deeper than `known`; no pose of the motion is below `lower`.
-  Interval Deepest(const motion::Motion& motion, bool with_lag, double known, int* budget,
-                   PathPoint* at);
+  Interval Deepest(const motion::Motion& motion, const PathPoint& contact, bool with_lag,
+                   double known, int* budget, PathPoint* at);
 
   /// Clearance of the solids at a pose of the motion, not told apart above `enough`.
   std::optional<Interval> At(const motion::Motion& motion, const PathPoint& point, double enough,
@@ -122,6 +123,14 @@ class PairSweep {
     int refinements = 0;
     int poses = 0;
   };
+  struct Deepening {
+    double limit = 0.0;  // nothing above this is of interest
+    Interval best;
+    PathPoint* at = nullptr;
+    int queries = 0;
+  };
+  void Deepen(const motion::Motion& motion, const motion::Span& whole, int queries,
+              Deepening* search);
   double Need(const Sweep& sweep) const;
   std::optional<Interval> Look(const motion::Motion& motion, double s, const Watch& watch,
                                double enough);
@@ -134,6 +143,8 @@ class PairSweep {
   void Expect(double spare);
   double Spared(const Watch& watch) const;
   bool Stand(const motion::Motion& motion, const Watch& watch);
+  std::optional<double> Recall(const motion::PairTravel::Neighbourhood& around) const;
+  std::optional<double> Explore(const motion::PairTravel::Neighbourhood& around, double enough);
   Step Around(const motion::PairTravel& bound, std::size_t at, std::size_t path_end,
               const Watch& watch);
   Step Ahead(const motion::Travel& travel, const motion::PairTravel& bound, std::size_t at,
@@ -156,6 +167,8 @@ class PairSweep {
   SourcePosition least_where_;
   std::vector<motion::Span> stack_;
   Patience around_;
+  std::size_t level_ = 0;  // of the last stretch that was settled around a pose
+  std::map<motion::PairTravel::GridKey, double> memory_;  // never more than the clearance
   double ahead_ = 0.0;  // mm beyond what is needed that the next look ahead hopes for
   std::uint64_t queries_ = 0;
 };

@@ -89,7 +89,8 @@ void Hold(const motion::Motion& motion, const motion::PairPath& path, PairEngine
   }
   PathPoint at;
   int budget = 1000;
-  const Interval deepest = sweep.Deepest(motion, result.first.lag > 0.0, kInfinity, &budget, &at);
+  const Interval deepest =
+      sweep.Deepest(motion, result.first, result.first.lag > 0.0, kInfinity, &budget, &at);
   if (engine->has_depth()) {
     EXPECT_LE(deepest.lower, sampled.least + 1e-6) << "proven above a sample";
     EXPECT_LT(deepest.upper,

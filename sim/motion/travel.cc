@@ -14,6 +14,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Covers rounding of sums over a window (4096 terms, up to some kilometres in all), mm.
 constexpr double kSumError = 1e-6;
+/// Of a turn on the grid, mm: any will do, one near the size of a machine's links does well.
+constexpr double kGridRadius = 256.0;
 
 /// The measures of one motion.
 struct Measures {
@@ -221,15 +223,29 @@ double PairTravel::Between(std::size_t i, std::size_t j) const {
   return sum;
 }
 
-PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level) const {
+PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, int grid) const {
   const std::size_t stretch = Travel::kLeaf << level;
   const Travel::Box& box = travel_->box(level, i / stretch);
   Neighbourhood around;
   around.end = std::min(travel_->size(), (i / stretch + 1) * stretch);
   if (!pair_->revolved) {
-    const JointVector q = 0.5 * (box.lower + box.upper);
+    JointVector q = 0.5 * (box.lower + box.upper);
+    const kinematics::RelativePath& path = pair_->path;
+    const std::vector<int>& joints = path.joint_indices();
+    if (joints.size() < std::tuple_size_v<GridKey>) {
+      around.key.emplace().fill(0);
+      std::size_t k = 0;
+      (*around.key)[k++] = grid;
+      for (const int joint : joints) {
+        const double spacing = std::ldexp(1.0, grid) / (path.revolute(k - 1) ? kGridRadius : 1.0);
+        const double place = std::round(q[joint] / spacing);
+        (*around.key)[k++] = static_cast<int>(place);
+        q[joint] = place * spacing;
+      }
+    }
+    const JointVector astray = (box.upper - q).cwiseMax(q - box.lower).cwiseMax(0.0);
     around.X_BA = pair_->path.Pose(q);
-    around.radius = kSumError + pair_->path.Bound(q, pair_->a, 0.5 * (box.upper - box.lower));
+    around.radius = kSumError + pair_->path.Bound(q, pair_->a, astray);
     return around;
   }
   const Eigen::Vector3d middle = 0.5 * (box.axis_lower + box.axis_upper);

@@ -3,7 +3,9 @@
 // follows without a look at the motions: what makes a block that is far from everything free.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "sim/motion/motion.h"
@@ -70,14 +72,17 @@ class PairTravel {
   /// The last j in [i, size()] with Between(i, j) < `limit`, and i where there is none.
   std::size_t Furthest(std::size_t i, double limit) const;
 
-  /// A pose, and how far from it any point of A is at any pose of the motions [begin, end).
+  /// A pose on a grid that is the same for all runs; `key` numbers its places.
+  using GridKey = std::array<int, 7>;
+  /// A pose, and how far from it any point of A is at any pose of the motions up to `end`.
   struct Neighbourhood {
     Eigen::Isometry3d X_BA;
     double radius = 0.0;  ///< mm
     std::size_t end = 0;
+    std::optional<GridKey> key;  ///< For pairs whose poses a program comes back to.
   };
-  /// Of the stretch of `level` that motion i is in.
-  Neighbourhood Around(std::size_t i, std::size_t level) const;
+  /// Of the stretch of `level` that motion i is in. `grid`: the spacing of the grid is 2^grid mm.
+  Neighbourhood Around(std::size_t i, std::size_t level, int grid) const;
   std::size_t levels() const { return travel_->levels(); }
 
  private:

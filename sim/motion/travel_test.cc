@@ -71,7 +71,7 @@ void Hold(const std::vector<Motion>& motions, const PairPath& pair, const Travel
   }
   for (std::size_t level = 0; level < travel.levels(); ++level) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
-      const PairTravel::Neighbourhood around = bound.Around(i, level);
+      const PairTravel::Neighbourhood around = bound.Around(i, level, 3);
       ASSERT_GT(around.end, i);
       for (const JointVector& q : Poses(motions[i])) {
         ASSERT_LE(moved(around.X_BA, pair.path.Pose(q)), around.radius);
