@@ -47,6 +47,37 @@ class ToolEngine final : public PairEngine {
   ProfileDistance kernel_;
 };
 
+class SweptEngine final : public PairEngine {
+ public:
+  explicit SweptEngine(std::shared_ptr<const SweptPair> pair)
+      : pair_(std::move(pair)), kernel_(pair_->swept->shape, pair_->mesh->tree) {}
+
+  std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
+    return kernel_.Surface(Pose(X_BA), goal);
+  }
+  bool Contained(const Isometry3d& X_BA) override { return kernel_.Contained(Pose(X_BA)); }
+  std::optional<Interval> Solid(const Isometry3d& X_BA, const DistanceGoal& goal) override {
+    return kernel_.Solid(Pose(X_BA), goal);
+  }
+  // Its contacts are none of the pair's.
+  bool Confirms(const Isometry3d& /*X_BA*/) override { return false; }
+  double Budget(double need) const override { return std::max(20.0, need); }
+  double thrift() const override { return 0.9; }
+  bool has_depth() const override { return true; }
+  double floor() const override { return -pair_->swept->shape.inradius(); }
+
+ private:
+  // In the mesh's frame.
+  RevolvedPose Pose(const Isometry3d& X_BA) const {
+    const RevolvedPose& pose = pair_->swept->pose;
+    const Isometry3d X_GP = pair_->mesh_is_a ? X_BA.inverse() : X_BA;
+    return {X_GP * pose.tip, X_GP.linear() * pose.axis};
+  }
+
+  std::shared_ptr<const SweptPair> pair_;
+  ProfileDistance kernel_;
+};
+
 class MeshEngine final : public PairEngine {
  public:
   MeshEngine(std::shared_ptr<const MeshBody> a, std::shared_ptr<const MeshBody> b)
@@ -95,6 +126,10 @@ class MeshEngine final : public PairEngine {
 std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const ToolBody> a,
                                        std::shared_ptr<const MeshBody> b) {
   return std::make_unique<ToolEngine>(std::move(a), std::move(b));
+}
+
+std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const SweptPair> pair) {
+  return std::make_unique<SweptEngine>(std::move(pair));
 }
 
 std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const MeshBody> a,

@@ -9,6 +9,7 @@
 
 #include "sim/collision/bodies.h"
 #include "sim/collision/profile_distance.h"
+#include "sim/collision/swept.h"
 
 namespace ncsim::collision {
 
@@ -43,6 +44,8 @@ class PairEngine {
 /// Tool body A against a mesh.
 std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const ToolBody> a,
                                        std::shared_ptr<const MeshBody> b);
+/// A swept body and a mesh; only clearances are asked of it.
+std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const SweptPair> pair);
 /// Mesh against mesh, by FCL. No depth.
 std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const MeshBody> a,
                                        std::shared_ptr<const MeshBody> b);

@@ -21,9 +21,14 @@ std::unique_ptr<PairEngine> EngineOf(const Pair& pair) {
   return pair.tool ? MakeEngine(pair.tool, pair.b) : MakeEngine(pair.mesh_a, pair.b);
 }
 
-motion::PairPath PathOf(const machine::Machine& machine, const Pair& pair) {
-  motion::PairPath path(machine.tree, pair.extent_a(), pair.link_b(),
-                        machine.five_axis ? &*machine.five_axis : nullptr);
+template <class AnyPair>
+motion::PairPath PathOf(const machine::Machine& machine, const AnyPair& pair) {
+  return motion::PairPath(machine.tree, pair.extent_a(), pair.link_b(),
+                          machine.five_axis ? &*machine.five_axis : nullptr);
+}
+
+motion::PairPath PathOfPair(const machine::Machine& machine, const Pair& pair) {
+  motion::PairPath path = PathOf(machine, pair);
   path.revolved = pair.tool != nullptr;
   return path;
 }
@@ -38,9 +43,9 @@ PairMonitor::PairMonitor(const machine::Machine& machine, const machine::CheckSe
       blank_(blank),
       findings_(findings),
       engine_(EngineOf(pair_)),
-      sweep_(PathOf(machine, pair_), engine_.get()) {
+      sweep_(PathOfPair(machine, pair_), engine_.get()) {
   if (pair_.swept == nullptr) return;
-  swept_engine_ = EngineOf(*pair_.swept);
+  swept_engine_ = MakeEngine(pair_.swept);
   swept_ = std::make_unique<PairSweep>(PathOf(machine, *pair_.swept), swept_engine_.get());
 }
 

@@ -6,15 +6,11 @@
 #include <map>
 #include <utility>
 
-#include "sim/collision/tessellate.h"
-
 namespace ncsim::collision {
 
 namespace {
 
 using machine::BodyKind;
-
-constexpr double kSweptSagitta = 0.5;  // mm
 
 bool Rigid(const machine::Machine& machine, int link_a, int link_b) {
   return kinematics::RelativePath(machine.tree, link_b, link_a).rigid();
@@ -35,10 +31,11 @@ std::size_t JointsToSpindle(const machine::Machine& machine, int link) {
 
 // How far points of one body get, as seen from the other's link, for a unit step of every joint
 // about home: the better choice of A gives tighter bounds.
-double Reach(const machine::Machine& machine, const MeshBody& a, const MeshBody& b) {
-  const kinematics::RelativePath path(machine.tree, b.extent.link, a.extent.link);
+double Reach(const machine::Machine& machine, const kinematics::Extent& a,
+             const kinematics::Extent& b) {
+  const kinematics::RelativePath path(machine.tree, b.link, a.link);
   const motion::JointVector unit = motion::JointVector::Ones(machine.tree.num_moving());
-  return path.Bound(machine.Home(), a.extent, unit);
+  return path.Bound(machine.Home(), a, unit);
 }
 
 void ChooseA(const machine::Machine& machine, std::shared_ptr<const MeshBody> a,
@@ -47,54 +44,20 @@ void ChooseA(const machine::Machine& machine, std::shared_ptr<const MeshBody> a,
   const bool tcp = machine.five_axis.has_value() &&
                    Rigid(machine, a->extent.link, machine.spindle_link) &&
                    Rigid(machine, b->extent.link, machine.table_link);
-  if (!tcp && Reach(machine, *b, *a) < Reach(machine, *a, *b)) std::swap(a, b);
+  if (!tcp && Reach(machine, b->extent, a->extent) < Reach(machine, a->extent, b->extent))
+    std::swap(a, b);
   pair->mesh_a = std::move(a);
   pair->b = std::move(b);
 }
 
-// What `body` sweeps when the rotary joint that its link hangs on turns, as a body of the joint's
-// parent: the convex solid of revolution around all of it. Null where that joint is not rotary.
-std::shared_ptr<const MeshBody> SweptBody(const machine::Machine& machine, const MeshBody& body) {
-  const std::vector<int> moving = machine.tree.MovingJointsTo(body.extent.link);
-  if (moving.empty() || body.tree.empty()) return nullptr;
-  const kinematics::Joint& joint = machine.tree.joints()[static_cast<std::size_t>(moving.back())];
-  if (joint.type != kinematics::JointType::kRevolute) return nullptr;
-  // X_PJ with Z along the joint's axis.
-  Eigen::Isometry3d X_PZ = joint.X_PJ;
-  X_PZ.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis));
-  const motion::JointVector zero = motion::JointVector::Zero(machine.tree.num_moving());
-  const Eigen::Isometry3d X_PL =
-      kinematics::RelativePath(machine.tree, joint.parent_link, body.extent.link).Pose(zero);
-  const Eigen::Isometry3d X_ZL = X_PZ.inverse() * X_PL;
-  std::vector<Eigen::Vector2d> points;
-  for (int i = 0; i < body.tree.size(); ++i) {
-    for (const Eigen::Vector3d& v : body.tree.triangle(i)) {
-      const Eigen::Vector3d p = X_ZL * v;
-      points.emplace_back(p.z(), std::hypot(p.x(), p.y()));
-    }
-  }
-  machine::SceneBody swept;
-  swept.name = body.name;
-  swept.kind = body.kind;
-  swept.link = joint.parent_link;
-  swept.mesh = Tessellate(ConvexHull(std::move(points)), 0.0, kSweptSagitta);
-  // Tessellate points its Z down the profile.
-  for (Eigen::Vector3d& v : swept.mesh.vertices) {
-    v = X_PZ * Eigen::Vector3d(v.x(), -v.y(), -v.z());
-  }
-  return std::make_shared<const MeshBody>(swept);
-}
-
 // The pair (a, b) with b swept, if b has a rotary joint of its own.
-std::shared_ptr<const Pair> SweptPair(const machine::Machine& machine, const Pair& pair,
-                                      const std::shared_ptr<const MeshBody>& a,
-                                      const std::shared_ptr<const MeshBody>& swept_b) {
+std::shared_ptr<const SweptPair> PairOfSwept(const machine::Machine& machine,
+                                             const std::shared_ptr<const MeshBody>& a,
+                                             const std::shared_ptr<const SweptBody>& swept_b) {
   if (swept_b == nullptr) return nullptr;
-  auto swept = std::make_shared<Pair>();
-  swept->role = pair.role;
-  swept->names = pair.names;
-  ChooseA(machine, a, swept_b, swept.get());
-  return swept;
+  const bool mesh_is_a =
+      Reach(machine, a->extent, swept_b->extent) <= Reach(machine, swept_b->extent, a->extent);
+  return std::make_shared<const SweptPair>(SweptPair{swept_b, a, mesh_is_a});
 }
 
 PairRole RoleOf(BodyKind a, BodyKind b) {
@@ -121,10 +84,10 @@ PairRole RoleOf(const ToolBody& tool, BodyKind other) {
 
 std::vector<Pair> ScenePairs(const machine::Machine& machine, const MeshBodies& bodies) {
   std::vector<Pair> pairs;
-  std::map<const MeshBody*, std::shared_ptr<const MeshBody>> swept;
+  std::map<const MeshBody*, std::shared_ptr<const SweptBody>> swept;
   const auto swept_of = [&](const std::shared_ptr<const MeshBody>& body) {
     const auto [entry, is_new] = swept.try_emplace(body.get());
-    if (is_new) entry->second = SweptBody(machine, *body);
+    if (is_new) entry->second = Sweep(machine, *body);
     return entry->second;
   };
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -140,8 +103,8 @@ std::vector<Pair> ScenePairs(const machine::Machine& machine, const MeshBodies& 
       Pair pair;
       pair.role = RoleOf(a->kind, b->kind);
       pair.names = {a->name, b->name};
-      pair.swept = SweptPair(machine, pair, a, swept_of(b));
-      if (pair.swept == nullptr) pair.swept = SweptPair(machine, pair, b, swept_of(a));
+      pair.swept = PairOfSwept(machine, a, swept_of(b));
+      if (pair.swept == nullptr) pair.swept = PairOfSwept(machine, b, swept_of(a));
       ChooseA(machine, std::move(a), std::move(b), &pair);
       pairs.push_back(std::move(pair));
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/collision/bodies.h"
+#include "sim/collision/swept.h"
 #include "sim/machine/machine.h"
 #include "sim/motion/motion.h"
 
@@ -33,7 +34,7 @@ struct Pair {
   /// The same pair with one body blown up to what it sweeps about its own rotary joint, or null.
   /// Its clearance is never more than the pair's, and that joint does not move it: a turning
   /// platter costs it nothing.
-  std::shared_ptr<const Pair> swept;
+  std::shared_ptr<const SweptPair> swept;
 
   const kinematics::Extent& extent_a() const { return tool ? tool->extent : mesh_a->extent; }
   int link_b() const { return b->extent.link; }

