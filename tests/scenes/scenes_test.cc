@@ -60,6 +60,23 @@ TEST(Scenes, FiveAxisPasses) {
   EXPECT_EQ(outcome.code, app::kExitPass) << outcome.text;
 }
 
+// Every line that the README shows after "$ ncsim check PROGRAM", but for "...".
+TEST(Scenes, TheReadmeShowsRealOutput) {
+  std::ifstream readme(kRoot / "README.md");
+  const std::string prompt = "$ ncsim check ";
+  fs::current_path(kRoot);
+  std::string printed;
+  int shown = 0;
+  for (std::string line; std::getline(readme, line);) {
+    if (line.starts_with(prompt)) printed = "\n" + Check(line.substr(prompt.size())).text;
+    if (line.starts_with("```")) printed.clear();
+    if (printed.empty() || line.starts_with(prompt) || line == "  ...") continue;
+    EXPECT_NE(printed.find("\n" + line + "\n"), std::string::npos) << line;
+    ++shown;
+  }
+  EXPECT_GE(shown, 8);
+}
+
 TEST(Scenes, TheGalleryHasEveryRule) {
   const std::vector<std::string> names = Gallery();
   for (const RuleInfo& rule : Rules()) {
