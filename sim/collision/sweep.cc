@@ -14,6 +14,7 @@ using motion::Span;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGapOfBound = 0.2;
+constexpr double kCutOut = 0.9;           // of what a clearance covers if the travel is even
 constexpr std::size_t kMemory = 20000;    // poses of a pair
 constexpr double kFarthest = 1e5;         // mm, worth looking ahead
 constexpr double kFirstContact = 1e-3;    // of the motion
@@ -364,8 +365,24 @@ bool PairSweep::Accept(const Span& span, const Span& whole, const Interval& clea
   return true;
 }
 
-void PairSweep::Split(const Span& span, const Sweep& sweep) {
-  const auto [first, second] = Halve(*sweep.motion, path_, span);
+// What is left to look at: with what the clearance covers cut out of the middle, where that is
+// worth it; else both halves.
+void PairSweep::Split(const Span& span, double clearance, double bound, Sweep* sweep) {
+  const double half = 0.5 * (span.s1 - span.s0);
+  const double part = kCutOut * (clearance - std::max(sweep->watch.contact, Need(*sweep))) / bound;
+  if (span.lag0 == span.lag1 && part > 0.1) {
+    const PathPoint middle = Middle(span);
+    const Span clear{middle.s - part * half, middle.s + part * half, span.lag0, span.lag1};
+    const double proven =
+        clearance - motion::RelativeBound(*sweep->motion, path_, clear, middle.s, middle.lag);
+    if (proven > sweep->watch.contact && proven > Need(*sweep)) {
+      sweep->result.least.lower = std::min(sweep->result.least.lower, proven);
+      stack_.push_back({clear.s1, span.s1, span.lag0, span.lag1});
+      stack_.push_back({span.s0, clear.s0, span.lag0, span.lag1});
+      return;
+    }
+  }
+  const auto [first, second] = Halve(*sweep->motion, path_, span);
   stack_.push_back(second);
   stack_.push_back(first);
 }
@@ -404,7 +421,7 @@ void PairSweep::Cover(const Span& whole, Sweep* sweep) {
       result.uncertified = true;
       return;
     }
-    Split(span, *sweep);
+    Split(span, clearance->lower, bound, sweep);
   }
 }
 

@@ -156,7 +156,7 @@ class PairSweep {
   std::optional<Interval> Query(const motion::Span& span, double bound, Sweep* sweep);
   bool Accept(const motion::Span& span, const motion::Span& whole, const Interval& clearance,
               double bound, Sweep* sweep);
-  void Split(const motion::Span& span, const Sweep& sweep);
+  void Split(const motion::Span& span, double clearance, double bound, Sweep* sweep);
   SweepResult FirstWithoutLag(const SweepResult& with_lag, const motion::Motion& motion,
                               const Watch& watch);
 
