@@ -22,7 +22,7 @@ constexpr double kDepthTolerance = 6e-3;  // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
 constexpr int kDepthQueries = 1000;       // a motion
 constexpr int kNearQueries = 60;          // of them near the contact
-constexpr int kDepthEvaluations = 2000;   // a query
+constexpr int kDepthEvaluations = 3000;   // a query
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
 PathPoint Middle(const Span& span) {
@@ -445,7 +445,7 @@ Interval PairSweep::Deepest(const Motion& motion, const PathPoint& contact, bool
   near.s0 = std::max(whole.s0, contact.s - kFirstContact);
   near.s1 = std::min(whole.s1, contact.s + kFirstContact);
   Deepening search{known, {kInfinity, kInfinity}, at};
-  Deepen(motion, near, kNearQueries, &search);
+  if (*budget > 0) Deepen(motion, near, kNearQueries, &search);
   search.best.lower = kInfinity;
   Deepen(motion, whole, std::min(kDepthQueries, *budget), &search);
   *budget -= search.queries;
@@ -456,10 +456,9 @@ Interval PairSweep::Deepest(const Motion& motion, const PathPoint& contact, bool
 // Best first; leaves a lower bound of the whole span in `search`.
 void PairSweep::Deepen(const Motion& motion, const Span& whole, int queries, Deepening* search) {
   struct Piece {
-    double estimate;
     double lower;
     Span span;
-    bool operator<(const Piece& o) const { return estimate > o.estimate; }
+    bool operator<(const Piece& o) const { return lower > o.lower; }
   };
   Interval& best = search->best;
   std::vector<Piece> heap;
@@ -479,15 +478,13 @@ void PairSweep::Deepen(const Motion& motion, const Span& whole, int queries, Dee
       *search->at = middle;
       search->limit = std::min(search->limit, best.upper);
     }
-    // The witness is what is reported, so the search follows what it may become.
-    heap.push_back({std::max(clearance->upper - bound, engine_->floor()),
-                    std::max(clearance->lower - bound, engine_->floor()), span});
+    heap.push_back({std::max(clearance->lower - bound, engine_->floor()), span});
     std::push_heap(heap.begin(), heap.end());
   };
   look(whole);
   // The ends are where a plunge is deepest.
   look({whole.s1, whole.s1, whole.lag0, whole.lag0});
-  while (!heap.empty() && heap.front().estimate < search->limit - kDepthTolerance &&
+  while (!heap.empty() && heap.front().lower < search->limit - kDepthTolerance &&
          search->queries < last) {
     const Piece piece = heap.front();
     std::pop_heap(heap.begin(), heap.end());
