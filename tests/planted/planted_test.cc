@@ -214,7 +214,8 @@ std::string DocumentedRow(const std::string& name, const std::string& now) {
   std::string* row = nullptr;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   for (std::string& line : lines) {
-    if (line.starts_with("| " + name + " |")) row = &line;
+    // The first: another table has the families' names too.
+    if (row == nullptr && line.starts_with("| " + name + " |")) row = &line;
   }
   if (row == nullptr) return "";
   const char* write = std::getenv("NCSIM_WRITE_DOCS");
