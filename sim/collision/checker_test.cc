@@ -18,6 +18,7 @@ using machine::BodyKind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 // A pin (the shank and flutes) along a slot of two jaws, `gap` on either side.
@@ -279,6 +280,23 @@ TEST(CheckerTest, BodiesThatCannotBeTrusted) {
   EXPECT_THAT(result.findings[0].bodies, ElementsAre("broken"));
   EXPECT_EQ(result.findings[0].where.line, 1);
   EXPECT_THAT(result.clearances, SizeIs(3));
+}
+
+// A body of the base, with the table turned away: where the tool is over the table says nothing.
+TEST(CheckerTest, ToolAgainstTheBaseWithTheTableTurned) {
+  for (const double reach : {-0.05, 0.05}) {
+    Rig rig;
+    rig.AddBody("column", BodyKind::kMachine, BoxMesh({200, -50, 0}, {260, 50, 300}), 0);
+    rig.Start(0, 0, 10, 0, 90);
+    for (int i = 1; i <= 100; ++i) rig.Feed(0.3 * i, 0.1 * (i % 7), 10, 0, 90);
+    rig.Feed(195 + reach, 0, 10, 0, 90);
+    for (int i = 1; i <= 100; ++i) rig.Feed(30 + 0.1 * i, 0, 10, 0, 90);
+    const std::vector<Finding> hits = Of(rig.Run(), Rule::kCollision);
+    // The holder, of radius 20, is there long before the flutes.
+    ASSERT_THAT(hits, Not(IsEmpty()));
+    EXPECT_EQ(hits[0].where.line, 101);
+    EXPECT_THAT(hits, SizeIs(reach > 0.0 ? 3 : 1));
+  }
 }
 
 TEST(CheckerTest, AToolWithoutShapeIsSaid) {

@@ -168,7 +168,7 @@ TEST(SweepPropertyTest, WhatIsCrossedIsClear) {
   std::size_t crossed = 0;
   std::uint64_t queries = 0;
   int stopped = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const motion::TestMachine machine = kinematics::RandomMachine(&random);
     const auto five_axis =
         kinematics::FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
@@ -192,12 +192,17 @@ TEST(SweepPropertyTest, WhatIsCrossedIsClear) {
     for (const motion::Motion& motion : motions) run.push_back(&motion);
     const motion::Travel travel(machine.tree, &*five_axis, 120.0, run);
     const motion::JointVector q = motions[2].At(0.5);
-    const Eigen::Isometry3d X_BS = machine.tree.Pose(machine.table_link, q).inverse() *
-                                   machine.tree.Pose(machine.spindle_link, q);
-    const auto b = RandomBody(&random, machine.table_link,
-                              X_BS * Eigen::Vector3d(random.Uniform(-300, 300), 150.0, 110.0));
+    // Half of the bodies are no part of the table.
+    const int link = random.Chance(0.5)
+                         ? machine.table_link
+                         : random.Below(static_cast<int>(machine.tree.links().size()));
+    const Eigen::Isometry3d X_BS =
+        machine.tree.Pose(link, q).inverse() * machine.tree.Pose(machine.spindle_link, q);
+    const auto b =
+        RandomBody(&random, link, X_BS * Eigen::Vector3d(random.Uniform(-300, 300), 150.0, 110.0));
     const auto engine = MakeEngine(a, b);
-    motion::PairPath path(machine.tree, a->extent, machine.table_link, &*five_axis);
+    motion::PairPath path(machine.tree, a->extent, link, &*five_axis);
+    if (path.path.rigid()) continue;
     path.revolved = true;
     PairSweep sweep(path, engine.get());
     Watch watch;

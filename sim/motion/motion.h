@@ -168,7 +168,9 @@ struct PairPath {
   kinematics::Extent a;  ///< Extent of body A (tool side where one of the two is).
   /// A is rigid with the spindle link and B with the table link: the TCP bound applies alone.
   bool tool_to_table = false;
-  /// When tool_to_table: A's link and the extent centre in S, and the rotary joints between.
+  /// When tool_to_table: the table's frame in B's link, A's link and the extent centre in S, and
+  /// the rotary joints between.
+  Eigen::Isometry3d X_BTable = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_SA = Eigen::Isometry3d::Identity();
   Eigen::Vector3d p_SC = Eigen::Vector3d::Zero();
   std::vector<int> rotary;

@@ -69,7 +69,9 @@ PairPath::PairPath(const kinematics::KinematicTree& tree, const kinematics::Exte
              {tree, five_axis->spindle_link(), extent.link}};
   tool_to_table = way.table_from_b.rigid() && way.a_from_spindle.rigid();
   if (tool_to_table) {
-    X_SA = way.a_from_spindle.Pose(JointVector::Zero(tree.num_moving()));
+    const JointVector any = JointVector::Zero(tree.num_moving());
+    X_BTable = way.table_from_b.Pose(any);
+    X_SA = way.a_from_spindle.Pose(any);
     p_SC = X_SA * extent.p_LC;
     rotary = five_axis->rotary();
     return;

@@ -228,7 +228,7 @@ PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, i
   const Travel::Box& box = travel_->box(level, i / stretch);
   Neighbourhood around;
   around.end = std::min(travel_->size(), (i / stretch + 1) * stretch);
-  if (!pair_->revolved) {
+  if (!pair_->tool_to_table || !pair_->revolved) {
     JointVector q = 0.5 * (box.lower + box.upper);
     const kinematics::RelativePath& path = pair_->path;
     const std::vector<int>& joints = path.joint_indices();
@@ -254,7 +254,7 @@ PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, i
   around.X_BA.linear() =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -axis).toRotationMatrix();
   around.X_BA.translation() = 0.5 * (box.tip_lower + box.tip_upper) + travel_->tool_length() * axis;
-  around.X_BA = around.X_BA * pair_->X_SA;
+  around.X_BA = pair_->X_BTable * around.X_BA * pair_->X_SA;
   around.radius =
       kSumError + 0.5 * (box.tip_upper - box.tip_lower).norm() + std::min(turn, 2.0) * reach_;
   return around;

@@ -154,6 +154,29 @@ TEST(TravelTest, ASolidOfRevolutionMayTurnAboutItsAxis) {
   EXPECT_GT(free_spin, 1.0);
 }
 
+// The tool against what is no part of the table: the boxes of the tip in the table's frame say
+// nothing about it.
+TEST(TravelTest, ASolidOfRevolutionAgainstAnyLink) {
+  Random random(33);
+  for (int i = 0; i < 300; ++i) {
+    const TestMachine machine = RandomMachine(&random, {random.Chance(0.4), random.Chance(0.3)});
+    const auto metal = FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
+    ASSERT_TRUE(metal.has_value());
+    const auto frame = std::make_shared<TcpFrame>(TcpFrame{*metal, 100.0, 0.0});
+    const std::vector<Motion> motions = RandomRun(&random, machine, frame);
+    const Travel travel(machine.tree, &*metal, 100.0, Pointers(motions));
+    const Eigen::Vector3d middle(0.0, 0.0, 50.0);
+    PairPath pair(machine.tree, {machine.spindle_link, middle, 0.0},
+                  random.Below(static_cast<int>(machine.tree.links().size())), &*metal);
+    pair.revolved = true;
+    // A point on the axis: a turn about it does not move it anyway.
+    Hold(motions, pair, travel, [&](const Eigen::Isometry3d& X, const Eigen::Isometry3d& Y) {
+      return (X * middle - Y * middle).norm();
+    });
+    if (HasFatalFailure()) FAIL() << "case " << i;
+  }
+}
+
 // Along X by 3 and by 4, and a turn of C between: straight sums.
 TEST(TravelTest, TotalsOfAxisMotions) {
   const TestMachine machine = kinematics::TrunnionBC({0, 0, 0}, {0, 0, 0});

@@ -63,7 +63,7 @@ Solid RandomPost(Random* random, double size, double height) {
 Case MakeToolChange(const Upright& place, const Cutter& cutter, const Solid& solid,
                     bool shape_clear, const Vector3d& tip) {
   Case c(place.table);
-  // Before: a stub close to the gauge line, far above everything.
+  // Before: a short stump at the gauge line, far above everything.
   c.SetTool({120.0, 150.0, 10.0, 0.0, false}, BodyKind::kHolder, Case::kTool);
   place.Start(&c, tip + Vector3d(0, 0, 1.0));
   place.Go(&c, motion::MotionKind::kRapid, tip);
