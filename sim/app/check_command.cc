@@ -13,6 +13,7 @@
 
 #include "sim/app/app.h"
 #include "sim/app/check_program.h"
+#include "sim/collision/threads.h"
 
 namespace ncsim::app {
 namespace {
@@ -40,8 +41,10 @@ std::vector<ProgramOutcome> CheckAll(const CheckOptions& options, bool progress)
       outcomes[i] = CheckCatching(options, options.programs[i], show);
     }
   };
-  const std::size_t threads =
-      std::min(static_cast<std::size_t>(options.jobs), options.programs.size());
+  const int jobs = options.jobs > 0 ? options.jobs : collision::DefaultThreads();
+  const auto threads = std::min(static_cast<std::size_t>(jobs), options.programs.size());
+  // A thread for each program; those that are left help with their collisions.
+  const collision::ThreadLimit limit(jobs - static_cast<int>(threads) + 1);
   if (threads <= 1) {
     work(progress);
     return outcomes;

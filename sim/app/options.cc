@@ -119,7 +119,11 @@ class CommandLine {
         ->add_option("--clearance", clearance_,
                      "warn (near-miss) where two bodies come closer than this")
         ->type_name("MM");
-    check_->add_option("--jobs", o.jobs, "programs to check at a time")->type_name("N");
+    check_
+        ->add_option("--jobs", o.jobs,
+                     "threads to use; the report is the same for any number (default: as many as "
+                     "there are processors)")
+        ->type_name("N");
     check_->add_option("--format", format_, "text or json")->type_name("FORMAT");
     check_->add_option("--out", o.out, "write the report to this file")->type_name("FILE");
     check_
@@ -175,7 +179,7 @@ class CommandLine {
       }
       o.clearance = clearance_;
     }
-    if (o.jobs < 1) return "--jobs takes a number from 1";
+    if (check_->count("--jobs") > 0 && o.jobs < 1) return "--jobs takes a number from 1";
     if (o.programs.empty()) return "check needs a program: ncsim check part.nc --model umc750.urdf";
     if (!o.trace.empty() && o.programs.size() > 1) return "--trace takes one program";
     return "";

@@ -18,7 +18,7 @@ struct CheckOptions {
   std::vector<std::string> assume;  ///< Names, or "all".
   bool strict = false;
   std::optional<double> clearance;  ///< mm; overrides the job's.
-  int jobs = 1;                     ///< Programs at a time.
+  int jobs = 0;                     ///< Threads; 0: as many as there are processors.
   Format format = Format::kText;
   std::string out;    ///< Report file; "" for standard output.
   std::string trace;  ///< "" for none.

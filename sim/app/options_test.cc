@@ -70,7 +70,7 @@ TEST_F(OptionsTest, DefaultsLeaveTheJobItsClearance) {
   ASSERT_EQ(command.kind, Command::Kind::kCheck) << err_.str();
   EXPECT_FALSE(command.check.clearance.has_value());
   EXPECT_EQ(command.check.format, Format::kText);
-  EXPECT_EQ(command.check.jobs, 1);
+  EXPECT_EQ(command.check.jobs, 0);
 }
 
 TEST_F(OptionsTest, MistypedNamesGetASuggestion) {

@@ -37,9 +37,11 @@ void Pipeline::OnMotion(const motion::Motion& motion) {
 
 void Pipeline::Flush() {
   if (window_.motions.empty()) return;
-  if (parts_.collision != nullptr) parts_.collision->Check(window_);
-  if (on_window_) on_window_(window_.motions.back().where);
+  const SourcePosition reached = window_.motions.back().where;
+  if (parts_.collision != nullptr) parts_.collision->Check(std::exchange(window_, {}));
   window_.motions.clear();
+  window_.motions.reserve(motion::kWindowSize);
+  if (on_window_) on_window_(reached);
 }
 
 void Pipeline::Finish() {

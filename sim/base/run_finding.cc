@@ -5,10 +5,23 @@
 
 namespace ncsim {
 
+namespace {
+
+bool SameBlock(const SourcePosition& a, const SourcePosition& b) {
+  return a.line == b.line && a.file == b.file;
+}
+
+}  // namespace
+
 void RunFinding::Add(const SourcePosition& where) {
-  const bool same_block = where.line == last_.line && where.file == last_.file;
-  if (blocks_ == 0 || !same_block) ++blocks_;
+  if (blocks_ == 0) first_ = where;
+  if (blocks_ == 0 || !SameBlock(where, last_)) ++blocks_;
   last_ = where;
+}
+
+void RunFinding::Append(const RunFinding& next) {
+  blocks_ += next.blocks_ - (SameBlock(next.first_, last_) ? 1 : 0);
+  last_ = next.last_;
 }
 
 Finding RunFinding::Take() {

@@ -17,8 +17,12 @@ class RunFinding {
   void Start(Finding finding) { finding_ = std::move(finding); }
   /// Counts the block of a motion. Several motions of one block count once.
   void Add(const SourcePosition& where);
+  /// Goes on with the blocks of `next`, the same fault from the motion after the last one on. Keeps
+  /// this run's finding.
+  void Append(const RunFinding& next);
   /// Of the open run; its message may change until the run ends.
   Finding& finding() { return finding_; }
+  const Finding& finding() const { return finding_; }
   /// Ends the open run: its finding, with " (13 blocks, the last is line 440)" after the message
   /// where there are more than one.
   Finding Take();
@@ -27,7 +31,7 @@ class RunFinding {
 
  private:
   int blocks_ = 0;
-  SourcePosition last_;
+  SourcePosition first_, last_;
   Finding finding_;
 };
 

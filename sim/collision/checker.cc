@@ -2,17 +2,16 @@
 #include "sim/collision/checker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "sim/collision/pair_monitor.h"
+#include "sim/collision/batch.h"
 
 namespace ncsim::collision {
 
 namespace {
-
-using Monitors = std::vector<std::unique_ptr<PairMonitor>>;
 
 bool HasMachineBody(const Pair& pair) {
   return pair.b->kind == machine::BodyKind::kMachine ||
@@ -28,10 +27,13 @@ struct CollisionChecker::State {
 
   bool Trusted(const Pair& pair);
   BlankState* BlankOf(const Pair& pair);
-  Monitors Watch(std::vector<Pair> pairs);
+  WatchedPairs Watch(std::vector<Pair> pairs);
   void ChangeTool(const motion::Motion& motion);
-  void OnRun(std::vector<const motion::Motion*> motions);
-  void OnWindow(const motion::Window& window);
+  void ReportBroken(const SourcePosition& where);
+  void OnRun(std::vector<const motion::Motion*> motions, const SharedWindow& window);
+  void OnWindow(const SharedWindow& window);
+  void Turn();
+  void Complete();
 
   const machine::Machine* machine;
   const machine::ToolTable* tools;
@@ -39,14 +41,19 @@ struct CollisionChecker::State {
   MeshBodies bodies;
   std::map<const MeshBody*, BlankState> blanks;
   NumberedFindings findings;
-  Monitors scene;
-  std::map<int, Monitors> by_tool;  // kept, so that a tool's least clearance spans all its uses
-  Monitors* in_spindle = nullptr;
+  WatchedPairs scene;
+  std::map<int, WatchedPairs> by_tool;  // kept, so that a tool's least clearance spans all its uses
+  WatchedPairs* in_spindle = nullptr;
   int tool = 0;
   std::set<int> unknown_tools;
   std::set<const MeshBody*> broken;
   std::vector<const MeshBody*> newly_broken;  // not reported yet
   std::uint64_t number = 0;                   // of motions so far
+  Batch filling, running;
+  std::size_t windows = 0;  // in `filling`
+  std::size_t batch_size = 1;
+  // Last, so that it is gone first: its work uses all of the above.
+  BatchRunner runner;
 };
 
 bool CollisionChecker::State::Trusted(const Pair& pair) {
@@ -67,8 +74,8 @@ BlankState* CollisionChecker::State::BlankOf(const Pair& pair) {
   return nullptr;
 }
 
-Monitors CollisionChecker::State::Watch(std::vector<Pair> pairs) {
-  Monitors monitors;
+WatchedPairs CollisionChecker::State::Watch(std::vector<Pair> pairs) {
+  WatchedPairs watched;
   for (Pair& pair : pairs) {
     if (!Trusted(pair)) continue;
     BlankState* blank = BlankOf(pair);
@@ -77,19 +84,14 @@ Monitors CollisionChecker::State::Watch(std::vector<Pair> pairs) {
       // The verdict turns on the margin; what is proven elsewhere is a quarter below what is seen.
       check.exact_below = 1.5 * machine::kNominalMargin;
     }
-    monitors.push_back(
-        std::make_unique<PairMonitor>(*machine, check, std::move(pair), blank, &findings));
+    watched.push_back(std::make_unique<WatchedPair>(*machine, check, std::move(pair), blank));
   }
-  return monitors;
+  return watched;
 }
 
 void CollisionChecker::State::ChangeTool(const motion::Motion& motion) {
   tool = motion.facts.tool;
-  if (in_spindle != nullptr) {
-    for (const auto& monitor : *in_spindle) monitor->Pause();
-  }
   in_spindle = nullptr;
-  for (const auto& monitor : scene) monitor->OnToolChange();
   if (tool == 0) return;
   const machine::Tool* data = tools->Find(tool);
   if (data == nullptr) {
@@ -106,41 +108,64 @@ void CollisionChecker::State::ChangeTool(const motion::Motion& motion) {
   in_spindle = &entry->second;
 }
 
-void CollisionChecker::State::OnRun(std::vector<const motion::Motion*> motions) {
-  if (motions.empty()) return;
-  const motion::Motion& first = *motions.front();
-  if (first.facts.tool != tool) ChangeTool(first);
-  const machine::Tool* data = tools->Find(tool);
-  const kinematics::FiveAxis* five_axis = machine->five_axis ? &*machine->five_axis : nullptr;
-  const motion::Travel travel(machine->tree, five_axis, data == nullptr ? 0.0 : data->length,
-                              std::move(motions));
+void CollisionChecker::State::ReportBroken(const SourcePosition& where) {
   for (const MeshBody* body : newly_broken) {
     Finding finding =
-        MakeFinding(Rule::kUncertified, first.where,
+        MakeFinding(Rule::kUncertified, where,
                     "nothing was checked against " + body->name + ": " + body->defect);
     finding.bodies = {body->name};
     findings.emplace_back(number + 1, std::move(finding));
   }
   newly_broken.clear();
+}
+
+void CollisionChecker::State::OnRun(std::vector<const motion::Motion*> motions,
+                                    const SharedWindow& window) {
+  if (motions.empty()) return;
+  const motion::Motion& first = *motions.front();
+  BatchRun run;
+  run.tool_changed = first.facts.tool != tool;
+  if (run.tool_changed) ChangeTool(first);
+  ReportBroken(first.where);
+  const machine::Tool* data = tools->Find(tool);
+  run.tool_length = data == nullptr ? 0.0 : data->length;
+  run.window = window;
+  run.number = number + 1;
   // The tool first: its flutes decide whether the blank is still whole.
-  if (in_spindle != nullptr) {
-    for (const auto& monitor : *in_spindle) monitor->OnRun(travel, number + 1);
-  }
-  for (const auto& monitor : scene) monitor->OnRun(travel, number + 1);
-  number += travel.size();
+  if (in_spindle != nullptr) run.groups.push_back(in_spindle);
+  run.groups.push_back(&scene);
+  number += motions.size();
+  run.motions = std::move(motions);
+  filling.push_back(std::move(run));
 }
 
 // Runs of motions that follow each other with one tool; a dwell that states no axes is passed over.
-void CollisionChecker::State::OnWindow(const motion::Window& window) {
+void CollisionChecker::State::OnWindow(const SharedWindow& window) {
   std::vector<const motion::Motion*> run;
-  for (const motion::Motion& motion : window.motions) {
+  for (const motion::Motion& motion : window->motions) {
     if (motion.q0().size() != machine->tree.num_moving()) continue;
     const bool follows = !run.empty() && motion.facts.tool == run.back()->facts.tool &&
                          SamePose(run.back()->q1(), motion.q0());
-    if (!follows) OnRun(std::exchange(run, {}));
+    if (!follows) OnRun(std::exchange(run, {}), window);
     run.push_back(&motion);
   }
-  OnRun(std::move(run));
+  OnRun(std::move(run), window);
+  if (++windows >= batch_size) Turn();
+}
+
+// The batch that was being checked is done; the one that is full is begun.
+void CollisionChecker::State::Turn() {
+  Complete();
+  running = std::exchange(filling, {});
+  windows = 0;
+  batch_size = std::min(2 * batch_size, kMostWindows);
+  runner.Start(*machine, &running);
+}
+
+void CollisionChecker::State::Complete() {
+  runner.Wait();
+  Tell(&running, &findings);
+  running.clear();
 }
 
 CollisionChecker::CollisionChecker(const machine::Machine& machine, const machine::Scene& scene,
@@ -155,24 +180,29 @@ CollisionChecker::CollisionChecker(const machine::Machine& machine, const machin
 
 CollisionChecker::~CollisionChecker() = default;
 
-void CollisionChecker::Check(const motion::Window& window) { state_->OnWindow(window); }
+void CollisionChecker::Check(motion::Window window) {
+  state_->OnWindow(std::make_shared<const motion::Window>(std::move(window)));
+}
 
 CollisionResult CollisionChecker::Finish() {
+  state_->Turn();
+  state_->Complete();
   CollisionResult result;
-  std::vector<Monitors*> all{&state_->scene};
-  for (auto& [tool, monitors] : state_->by_tool) all.push_back(&monitors);
-  for (Monitors* monitors : all) {
-    for (const auto& monitor : *monitors) {
-      monitor->Finish();
-      result.queries += monitor->queries();
-      const PairSweep& sweep = monitor->sweep();
-      if (monitor->has_clearance()) {
+  std::vector<WatchedPairs*> all{&state_->scene};
+  for (auto& [tool, pairs] : state_->by_tool) all.push_back(&pairs);
+  for (WatchedPairs* pairs : all) {
+    for (const auto& watched : *pairs) {
+      const Pair& pair = watched->setup.pair;
+      PairReport& report = watched->report;
+      report.Finish(pair, &state_->findings);
+      result.queries += report.queries();
+      if (watched->has_clearance()) {
         result.clearances.push_back(
-            {monitor->pair().names, sweep.least().lower, sweep.least().upper, sweep.least_where()});
+            {pair.names, report.least().lower, report.least().upper, report.least_where()});
       }
-      if (monitor->pair().role != PairRole::kFlutesPart || !sweep.has_least()) continue;
-      const DeepestCut cut{monitor->pair().tool->tool, std::max(0.0, -sweep.least().upper),
-                           sweep.least_where()};
+      if (pair.role != PairRole::kFlutesPart || !std::isfinite(report.least().upper)) continue;
+      const DeepestCut cut{pair.tool->tool, std::max(0.0, -report.least().upper),
+                           report.least_where()};
       if (!result.cuts.empty() && result.cuts.back().tool == cut.tool) {
         if (cut.depth_mm > result.cuts.back().depth_mm) result.cuts.back() = cut;
       } else {

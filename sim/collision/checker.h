@@ -49,8 +49,9 @@ class CollisionChecker {
                    const machine::ToolTable& tools, const machine::CheckSettings& settings);
   ~CollisionChecker();
 
-  /// Windows in program order.
-  void Check(const motion::Window& window);
+  /// Windows in program order. Returns before they are checked, on as many threads as oneTBB's
+  /// global_control allows; the result is the same for any number of them.
+  void Check(motion::Window window);
   CollisionResult Finish();
 
  private:

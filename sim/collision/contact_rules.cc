@@ -37,6 +37,12 @@ double RapidReference::OnRapid(int cycle, double start_depth) {
   return std::max(depth_, cycle > 0 && cycle == cycle_ ? cycle_depth_ : 0.0);
 }
 
+double RapidReference::OnFeedsBefore(double depth) {
+  depth_ = std::max(depth_, depth);
+  if (cycle_ > 0) cycle_depth_ = std::max(cycle_depth_, depth);
+  return std::max(depth_, cycle_depth_);
+}
+
 bool Uncut(const BlankState& blank, std::uint64_t number, double s) {
   return !blank.cut || (blank.motion == number && s < blank.s);
 }
@@ -58,8 +64,8 @@ Judgement Judge(PairRole role, const motion::Motion& motion, const machine::Chec
       if (role == PairRole::kThinShankPart) break;
       judgement.rule = rapid ? Rule::kRapidContact : Rule::kGouge;
       if (rapid) break;
+      judgement.checked = settings.gouge != machine::GougeMode::kOff;
       if (settings.gouge == machine::GougeMode::kWarning) judgement.severity = Severity::kWarning;
-      if (settings.gouge == machine::GougeMode::kOff) judgement.watch.contact = -kInfinity;
       judgement.watch.track = true;
       judgement.watch.track_below = kInfinity;
       judgement.watch.track_ceiling = 0.0;

@@ -27,6 +27,9 @@ class RapidReference {
   void OnFeed(double depth);
   /// Before each rapid: the depth at its start. Returns the depth that it may keep.
   double OnRapid(int cycle, double start_depth);
+  /// The feeds before the rapid of the last OnRapid turn out to have been this deep. Returns what
+  /// it may keep.
+  double OnFeedsBefore(double depth);
   /// True when OnRapid's answer depends on the depth at the start of the rapid.
   bool wants_start() const { return after_feed_ || depth_ > 0.0; }
   void Reset() { *this = RapidReference(); }

@@ -55,13 +55,13 @@ bool SamePose(const motion::JointVector& a, const motion::JointVector& b) {
   return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() <= 1e-9;
 }
 
-PairSweep::PairSweep(motion::PairPath path, PairEngine* engine)
-    : path_(std::move(path)), engine_(engine) {}
+PairSweep::PairSweep(const motion::PairPath& path, PairEngine* engine)
+    : path_(&path), engine_(engine) {}
 
 void PairSweep::Forget() { known_ = Known{}; }
 
 Eigen::Isometry3d PairSweep::Pose(const Motion& motion, const PathPoint& point) const {
-  return path_.path.Pose(motion.At(point.s, point.lag));
+  return path_->path.Pose(motion.At(point.s, point.lag));
 }
 
 void PairSweep::Include(const Interval& clearance, const SourcePosition& where) {
@@ -117,7 +117,8 @@ std::optional<Interval> PairSweep::Look(const Motion& motion, double s, const Wa
   goal.floor = Spared(watch);
   if (!watch.track || has_least()) goal.stop_above = goal.floor + enough;
   ++queries_;
-  const std::optional<Interval> clearance = engine_->Clearance(path_.path.Pose(motion.At(s)), goal);
+  const std::optional<Interval> clearance =
+      engine_->Clearance(path_->path.Pose(motion.At(s)), goal);
   if (!clearance.has_value()) return clearance;
   See(clearance->upper, motion.where, watch.track);
   Expect(clearance->lower - Spared(watch));
@@ -138,7 +139,7 @@ bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
   if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
   const std::optional<Interval> clearance = Look(motion, 0.0, watch, ahead_);
   if (!clearance.has_value() || clearance->lower <= Spared(watch) ||
-      engine_->Contained(path_.path.Pose(motion.At(0.0)))) {
+      engine_->Contained(path_->path.Pose(motion.At(0.0)))) {
     return false;
   }
   known_ = {clearance->lower, true, motion.q0()};
@@ -248,7 +249,7 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
     known_.q = motion.q1();
     return sweep.result;
   }
-  const double bound = motion::RelativeBound(motion, path_, whole, 0.0, whole.lag0);
+  const double bound = motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
   if (known_.outside && known_.clearance - bound > Need(sweep)) {
     known_.clearance -= bound;
     known_.q = motion.q1();
@@ -326,7 +327,7 @@ std::optional<Interval> PairSweep::Query(const Span& span, double bound, Sweep* 
   // Whatever the answer is, it is worth no more than what the pair may move by.
   const double fine = sweep->watch.track ? 0.25 * sweep->watch.track_within : kInfinity;
   goal.gap = std::max(goal.gap, std::min(kGapOfBound * bound, fine));
-  if (least_.upper < kInfinity) {
+  if (!sweep->watch.track || has_least()) {
     // Inside a motion a proof is enough; at its end, what is left serves the motions to come.
     goal.stop_above = span.s1 < 1.0 ? need + 1.25 * bound + kContactResolution
                                     : std::max(need, 0.0) + 2.0 * bound + engine_->Budget(need);
@@ -374,7 +375,7 @@ void PairSweep::Split(const Span& span, double clearance, double bound, Sweep* s
     const PathPoint middle = Middle(span);
     const Span clear{middle.s - part * half, middle.s + part * half, span.lag0, span.lag1};
     const double proven =
-        clearance - motion::RelativeBound(*sweep->motion, path_, clear, middle.s, middle.lag);
+        clearance - motion::RelativeBound(*sweep->motion, *path_, clear, middle.s, middle.lag);
     if (proven > sweep->watch.contact && proven > Need(*sweep)) {
       sweep->result.least.lower = std::min(sweep->result.least.lower, proven);
       stack_.push_back({clear.s1, span.s1, span.lag0, span.lag1});
@@ -382,7 +383,7 @@ void PairSweep::Split(const Span& span, double clearance, double bound, Sweep* s
       return;
     }
   }
-  const auto [first, second] = Halve(*sweep->motion, path_, span);
+  const auto [first, second] = Halve(*sweep->motion, *path_, span);
   stack_.push_back(second);
   stack_.push_back(first);
 }
@@ -396,7 +397,7 @@ void PairSweep::Cover(const Span& whole, Sweep* sweep) {
     // Spans come from left to right: a short one may still be the first of many that are not clear.
     if (result.contact && result.first.s - span.s0 <= kFirstContact) continue;
     const PathPoint middle = Middle(span);
-    const double bound = motion::RelativeBound(*sweep->motion, path_, span, middle.s, middle.lag);
+    const double bound = motion::RelativeBound(*sweep->motion, *path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance = Query(span, bound, sweep);
     if (!clearance.has_value() || !std::isfinite(bound) ||
         ++sweep->poses > sweep->watch.max_poses) {
@@ -465,7 +466,7 @@ void PairSweep::Deepen(const Motion& motion, const Span& whole, int queries, Dee
   const int last = search->queries + queries;
   const auto look = [&](const Span& span) {
     const PathPoint middle = Middle(span);
-    const double bound = motion::RelativeBound(motion, path_, span, middle.s, middle.lag);
+    const double bound = motion::RelativeBound(motion, *path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance =
         At(motion, middle, search->limit - kDepthTolerance + bound, 0.25 * bound);
     ++search->queries;
@@ -493,7 +494,7 @@ void PairSweep::Deepen(const Motion& motion, const Span& whole, int queries, Dee
       best.lower = std::min(best.lower, piece.lower);
       continue;
     }
-    const auto [first, second] = Halve(motion, path_, piece.span);
+    const auto [first, second] = Halve(motion, *path_, piece.span);
     look(first);
     look(second);
   }

@@ -58,8 +58,11 @@ struct SweepResult {
 
 class PairSweep {
  public:
-  /// `engine` outlives this.
-  PairSweep(motion::PairPath path, PairEngine* engine);
+  /// Both outlive this.
+  PairSweep(const motion::PairPath& path, PairEngine* engine);
+
+  /// A clearance that was seen elsewhere: no less need be told of what is above it.
+  void Seed(double seen) { least_.upper = seen; }
 
   /// The motions from `begin` on that are all clear by more than `watch` needs, found so without a
   /// look at each: the first clearance covers what lies behind its pose, the next one what lies
@@ -106,7 +109,7 @@ class PairSweep {
   /// Puts a depth that was found otherwise into least().
   void Include(const Interval& clearance, const SourcePosition& where);
 
-  const motion::PairPath& path() const { return path_; }
+  const motion::PairPath& path() const { return *path_; }
   std::uint64_t queries() const { return queries_; }
 
  private:
@@ -160,7 +163,7 @@ class PairSweep {
   SweepResult FirstWithoutLag(const SweepResult& with_lag, const motion::Motion& motion,
                               const Watch& watch);
 
-  motion::PairPath path_;
+  const motion::PairPath* path_;
   PairEngine* engine_;
   Known known_;
   Interval least_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};

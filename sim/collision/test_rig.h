@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -125,11 +126,14 @@ class Rig {
     return q;
   }
 
-  CollisionResult Run() const {
+  /// `window`: motions of each window.
+  CollisionResult Run(std::size_t window = motion::kWindowSize) const {
     CollisionChecker checker(machine_, scene_, tools_, check_);
-    motion::Window window;
-    window.motions = motions_;
-    checker.Check(window);
+    for (std::size_t i = 0; i < motions_.size(); i += window) {
+      const auto end = std::min(motions_.size(), i + window);
+      checker.Check({{motions_.begin() + static_cast<std::ptrdiff_t>(i),
+                      motions_.begin() + static_cast<std::ptrdiff_t>(end)}});
+    }
     return checker.Finish();
   }
   const std::vector<motion::Motion>& motions() const { return motions_; }
@@ -169,6 +173,23 @@ inline std::vector<Finding> Of(const CollisionResult& result, Rule rule) {
   std::copy_if(result.findings.begin(), result.findings.end(), std::back_inserter(found),
                [rule](const Finding& f) { return f.rule == rule; });
   return found;
+}
+
+/// All that a report tells, each number to its last bit.
+inline std::string Everything(const CollisionResult& result) {
+  std::ostringstream text;
+  text << std::hexfloat;
+  for (const Finding& f : result.findings) {
+    text << f.where.line << ' ' << static_cast<int>(f.severity) << ' ' << f.message << ' '
+         << f.clearance_mm.value_or(0.0) << ' ' << f.time_s.value_or(0.0) << '\n';
+  }
+  for (const PairClearance& c : result.clearances) {
+    text << c.bodies.front() << ' ' << c.bodies.back() << ' ' << c.proven_mm << ' ' << c.seen_mm
+         << ' ' << c.where.line << '\n';
+  }
+  for (const DeepestCut& c : result.cuts) text << c.tool << ' ' << c.depth_mm << '\n';
+  text << result.queries;
+  return text.str();
 }
 
 inline std::string Words(const CollisionResult& result) {

@@ -39,6 +39,7 @@ struct Library {
 };
 const std::vector<Library> kLibraries = {
     {"fcl/", "sim/collision", 2},
+    {"oneapi/tbb", "sim/collision", 2},
     {"assimp/", "sim/machine", 1},
     {"urdf_parser/", "sim/machine", 1},
     {"urdf_model/", "sim/machine", 1},

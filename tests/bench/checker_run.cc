@@ -8,6 +8,8 @@
 #include <memory>
 #include <utility>
 
+#include "sim/collision/threads.h"
+
 namespace ncsim::bench {
 namespace {
 
@@ -78,6 +80,7 @@ std::size_t FirstCut(const motion::Window& window) {
 
 CheckerRun RunChecker(const BenchJob& job, std::size_t motions, Approach approach) {
   CheckerRun run;
+  const collision::ThreadLimit one(1);
   const machine::ToolTable tools{job.job.tools};
   double start = ProcessCpuSeconds();
   collision::CollisionChecker checker(job.machine, job.scene, tools, job.job.check);
@@ -106,6 +109,7 @@ CheckerRun RunChecker(const BenchJob& job, std::size_t motions, Approach approac
 }
 
 std::vector<PairRun> RunPairs(const BenchJob& job, std::size_t motions) {
+  const collision::ThreadLimit one(1);
   std::vector<std::unique_ptr<Scene>> scenes = SinglePairs(job);
   std::size_t done = 0;
   ForEachWindow(job, [&](const motion::Window& window) {

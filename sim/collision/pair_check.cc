@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/collision/pair_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ncsim::collision {
+
+namespace {
+
+using motion::Motion;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kSweptPoses = 64;  // of one motion, before the pair itself is looked at
+// A contact that the kernel finds deeper than this must be seen by FCL on circumscribed meshes too.
+constexpr double kConfirmDepth = 0.02;
+
+std::unique_ptr<PairEngine> EngineOf(const Pair& pair) {
+  return pair.tool ? MakeEngine(pair.tool, pair.b) : MakeEngine(pair.mesh_a, pair.b);
+}
+
+template <class AnyPair>
+motion::PairPath PathOf(const machine::Machine& machine, const AnyPair& pair) {
+  return motion::PairPath(machine.tree, pair.extent_a(), pair.link_b(),
+                          machine.five_axis ? &*machine.five_axis : nullptr);
+}
+
+}  // namespace
+
+PairSetup::PairSetup(const machine::Machine& machine_data, const machine::CheckSettings& check,
+                     Pair bodies)
+    : machine(&machine_data),
+      settings(check),
+      pair(std::move(bodies)),
+      path(PathOf(machine_data, pair)) {
+  path.revolved = pair.tool != nullptr;
+  if (pair.swept != nullptr) swept_path.emplace(PathOf(machine_data, *pair.swept));
+}
+
+bool IsSequential(PairRole role) { return role != PairRole::kNeverTouch; }
+
+PairCheck::PairCheck(const PairSetup& setup, const motion::Travel& travel, std::uint64_t number,
+                     BlankState* blank, PairCarry* carry)
+    : setup_(&setup),
+      travel_(&travel),
+      number_(number),
+      blank_(blank),
+      carry_(carry),
+      engine_(EngineOf(setup.pair)),
+      sweep_(setup.path, engine_.get()),
+      bound_(setup.path, travel) {
+  sweep_.Seed(carry->least);
+  if (setup.pair.swept == nullptr) return;
+  swept_engine_ = MakeEngine(setup.pair.swept);
+  swept_.emplace(*setup.swept_path, swept_engine_.get());
+  swept_bound_.emplace(*setup.swept_path, travel);
+}
+
+PairOutcome PairCheck::Run() {
+  while (at_ < travel_->size()) {
+    if (Cross()) continue;
+    OnMotion();
+    ++at_;
+  }
+  CloseRuns();
+  outcome_.least = sweep_.least();
+  outcome_.least_where = sweep_.least_where();
+  // What was handed in was seen elsewhere.
+  if (outcome_.least.upper >= carry_->least) outcome_.least.upper = kInfinity;
+  carry_->least = std::min(carry_->least, outcome_.least.upper);
+  outcome_.queries = sweep_.queries() + (swept_ ? swept_->queries() : 0);
+  return std::move(outcome_);
+}
+
+bool PairCheck::cutting() const {
+  return pair().role == PairRole::kFlutesPart || pair().role == PairRole::kThinShankPart;
+}
+
+Judgement PairCheck::JudgeMotion(double allowed) const {
+  return Judge(pair().role, motion(), setup_->settings, blank_, number(), allowed,
+               engine_->floor());
+}
+
+// Passes over motions that are clear, and by so much that no rule has anything to say. What is
+// asked for at the first holds for all, since a blank asks for less once it is cut.
+bool PairCheck::Cross() {
+  Judgement judgement = JudgeMotion(0.0);
+  if (!judgement.checked || carry_->warned) return false;
+  Watch& watch = judgement.watch;
+  if (watch.clearance > 0.0) watch.rounding = travel_->corner_rounding();
+  std::size_t end = sweep_.has_least() ? CrossSwept(watch) : at_;
+  if (end == at_ && cross_.Ready()) {
+    end = sweep_.Cross(*travel_, bound_, at_, watch).end;
+    end > at_ ? cross_.Helped() : cross_.Failed();
+  }
+  if (end == at_) return false;
+  Passed(end);
+  return true;
+}
+
+// Most motions of most pairs of links are settled by the swept pair, without a look at the rotary
+// joint that turns most.
+std::size_t PairCheck::CrossSwept(const Watch& watch) {
+  if (!swept_ || !cross_swept_.Ready()) return at_;
+  Watch whole;
+  whole.contact = std::max(0.0, sweep_.Need(watch));
+  const PairSweep::Crossing crossing = swept_->Cross(*travel_, *swept_bound_, at_, whole);
+  if (crossing.end == at_) {
+    cross_swept_.Failed();
+    return at_;
+  }
+  cross_swept_.Helped();
+  if (watch.track) sweep_.Include({crossing.least, kInfinity}, motion().where);
+  sweep_.Accept((*travel_)[crossing.end - 1], swept_->known_clearance());
+  return crossing.end;
+}
+
+bool PairCheck::ClearWhenSwept(const Watch& watch) {
+  if (!swept_ || !sweep_.has_least() || !check_swept_.Ready()) return false;
+  Watch whole;
+  whole.contact = std::max(0.0, sweep_.Need(watch));
+  whole.find_first = false;
+  whole.max_poses = kSweptPoses;
+  const SweepResult result = swept_->Check(motion(), whole);
+  if (result.contact || result.uncertified) {
+    check_swept_.Failed();
+    return false;
+  }
+  check_swept_.Helped();
+  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion().where);
+  sweep_.Accept(motion(), swept_->known_clearance());
+  return true;
+}
+
+// Motions without contact.
+void PairCheck::Passed(std::size_t end) {
+  CloseRuns();
+  for (; at_ < end; ++at_) {
+    if (!cutting()) continue;
+    if (IsRapid(motion())) {
+      carry_->reference.OnRapid(motion().facts.cycle, 0.0);
+    } else {
+      carry_->reference.OnFeed(0.0);
+    }
+  }
+}
+
+void PairCheck::OnMotion() {
+  OnSpindleStopped();
+  Judgement judgement = JudgeMotion(AllowedDepth());
+  if (!judgement.checked || carry_->warned) {
+    CloseRuns();
+    sweep_.Forget();
+    if (cutting()) carry_->reference.OnFeed(0.0);
+    return;
+  }
+  judgement.watch.run_least = near_.open() ? near_.run.least : kInfinity;
+  judgement.watch.find_first = !contact_.open() || pair().role == PairRole::kOtherBlank;
+  if (ClearWhenSwept(judgement.watch)) {
+    CloseRuns();
+    return;
+  }
+  const SweepResult result = Sweep(&judgement);
+  if (result.uncertified) {
+    ReportUncertified("clearance of " + Spoken(pair().names.front()) + " and " +
+                      Spoken(pair().names.back()) + " could not be computed");
+  } else if (result.contact) {
+    OnContact(judgement, result);
+  } else {
+    OnClear(judgement, result);
+  }
+  if (!IsRapid(motion())) {
+    const double seen = contact_.open() ? contact_.run.least : result.least.upper;
+    carry_->reference.OnFeed(std::max(0.0, -seen));
+  }
+}
+
+SweepResult PairCheck::Sweep(Judgement* judgement) {
+  SweepResult result = sweep_.Check(motion(), judgement->watch);
+  const bool feeds_unknown = pair().role == PairRole::kFlutesPart && IsRapid(motion()) &&
+                             setup_->settings.gouge == machine::GougeMode::kOff;
+  if (!result.contact || !feeds_unknown) return result;
+  // No gouge was asked for, so nobody knows yet how deep the feeds were that led here.
+  const double depth = DepthOfFeedsBefore();
+  if (depth <= 0.0) return result;
+  const Watch asked = judgement->watch;
+  judgement->watch = JudgeMotion(carry_->reference.OnFeedsBefore(depth)).watch;
+  if (judgement->watch.contact >= asked.contact) return result;
+  judgement->watch.run_least = asked.run_least;
+  judgement->watch.find_first = asked.find_first;
+  return sweep_.Check(motion(), judgement->watch);
+}
+
+// The depth that a rapid may keep: it is where the feed before it left the tool.
+double PairCheck::AllowedDepth() {
+  if (!cutting() || !IsRapid(motion())) return 0.0;
+  double start = 0.0;
+  if (carry_->reference.wants_start()) {
+    const std::optional<Interval> at = sweep_.At(motion(), {0.0, 0.0}, 0.0);
+    if (at.has_value() && std::isfinite(at->upper)) start = std::max(0.0, -at->upper);
+  }
+  return carry_->reference.OnRapid(motion().facts.cycle, start);
+}
+
+// Of the feeds of this run of motions that lead to the rapid at hand.
+double PairCheck::DepthOfFeedsBefore() {
+  double deepest = 0.0;
+  int budget = OpenRun().depth_budget;
+  for (std::size_t i = at_; i > 0 && !IsRapid((*travel_)[i - 1]); --i) {
+    PathPoint at;
+    const Interval depth =
+        sweep_.Deepest((*travel_)[i - 1], {0.5, 0.0}, false, -deepest, &budget, &at);
+    if (std::isfinite(depth.upper)) deepest = std::max(deepest, -depth.upper);
+  }
+  return deepest;
+}
+
+void PairCheck::OnSpindleStopped() {
+  const bool applies = pair().role == PairRole::kFlutesPart ||
+                       (pair().role == PairRole::kFlutesBlank && !blank_->cut);
+  if (!applies || !IsFeed(motion()) || motion().facts.spindle_on) {
+    Close(&stopped_);
+    return;
+  }
+  Watch touch;
+  touch.find_first = !stopped_.open();
+  const SweepResult result = sweep_.Probe(motion(), touch);
+  if (!result.contact) {
+    Close(&stopped_);
+    return;
+  }
+  if (!stopped_.open()) {
+    Open(ContactRun::Kind::kSpindleStopped, Rule::kSpindleStopped, Severity::kError, result.first,
+         &stopped_);
+  }
+  Extend(&stopped_);
+}
+
+void PairCheck::OnContact(const Judgement& judgement, const SweepResult& result) {
+  Close(&near_);
+  Severity severity = judgement.severity;
+  if (pair().role == PairRole::kFlutesBlank && IsFeed(motion())) {
+    OnFirstCut(result);
+    return;
+  }
+  if (blank_ != nullptr && !Uncut(*blank_, number(), result.first.s)) {
+    if (pair().role == PairRole::kThinShankBlank) {
+      Close(&contact_);
+      return;
+    }
+    severity = Severity::kWarning;
+  }
+  if (contact_.open()) {
+    const Finding& fault = contact_.run.blocks.finding();
+    if (fault.rule != judgement.rule || fault.severity != severity) Close(&contact_);
+  }
+  if (!contact_.open()) {
+    Open(ContactRun::Kind::kContact, judgement.rule, severity, result.first, &contact_);
+    contact_.run.words.tolerance = judgement.tolerance;
+    if (engine_->has_depth()) contact_.run.least = std::min(0.0, result.least.upper);
+  }
+  outcome_.touched = true;
+  Extend(&contact_);
+  Deepen(result.first, judgement.watch.track);
+  // One warning a tool is enough: until the stock is simulated there is nothing more to say.
+  if (pair().role == PairRole::kOtherBlank && severity == Severity::kWarning) {
+    contact_.run.done = true;
+    Close(&contact_);
+    carry_->warned = true;
+  }
+}
+
+void PairCheck::OnFirstCut(const SweepResult& result) {
+  Close(&contact_);
+  blank_->cut = true;
+  blank_->motion = number();
+  blank_->s = result.first.s;
+}
+
+void PairCheck::Deepen(const PathPoint& contact, bool track) {
+  if (!engine_->has_depth()) return;
+  const bool first = contact_.run.blocks.blocks() == 1;
+  const double known = first ? kInfinity : contact_.run.least;
+  PathPoint at;
+  const Interval depth =
+      sweep_.Deepest(motion(), contact, contact_.with_lag, known, &contact_.depth_budget, &at);
+  contact_.run.least = std::min(contact_.run.least, depth.upper);
+  if (track) sweep_.Include({depth.lower, depth.upper}, motion().where);
+  if (first && depth.upper < -kConfirmDepth) Confirm(at);
+}
+
+void PairCheck::Confirm(const PathPoint& at) {
+  if (engine_->Confirms(sweep_.Pose(motion(), at))) return;
+  ReportUncertified("the two collision engines disagree about a contact of " +
+                    Spoken(pair().names.front()) + " and " + Spoken(pair().names.back()));
+}
+
+void PairCheck::OnClear(const Judgement& judgement, const SweepResult& result) {
+  Close(&contact_);
+  const Watch& watch = judgement.watch;
+  const bool rounded = watch.rounding > 0.0 && result.least.lower <= watch.rounding;
+  const bool near = watch.clearance > 0.0 && result.least.upper < watch.clearance;
+  if (!rounded && !near) {
+    Close(&near_);
+    return;
+  }
+  const Rule rule = rounded ? Rule::kUncertified : Rule::kNearMiss;
+  if (near_.open() && near_.run.blocks.finding().rule != rule) Close(&near_);
+  if (!near_.open()) {
+    Open(ContactRun::Kind::kNear, rule, Info(rule).severity, result.least_at, &near_);
+  }
+  near_.run.words.tolerance = rounded ? watch.rounding : watch.clearance;
+  if (result.least.upper < near_.run.least) {
+    near_.run.least = result.least.upper;
+    Place(result.least_at, &near_);
+  }
+  Extend(&near_);
+}
+
+void PairCheck::ReportUncertified(std::string why) {
+  if (!outcome_.uncertified.empty()) return;
+  outcome_.uncertified = std::move(why);
+  outcome_.uncertified_where = motion().where;
+  outcome_.uncertified_number = number();
+}
+
+void PairCheck::Open(ContactRun::Kind kind, Rule rule, Severity severity, const PathPoint& at,
+                     OpenRun* run) {
+  *run = OpenRun();
+  run->run.kind = kind;
+  run->run.first = number();
+  Finding finding = MakeFinding(rule, motion().where, "");
+  finding.severity = severity;
+  finding.bodies = pair().names;
+  run->run.blocks.Start(std::move(finding));
+  run->with_lag = at.lag > 0.0;
+  ContactWords& words = run->run.words;
+  words.rule = rule;
+  words.severity = severity;
+  words.has_depth = engine_->has_depth();
+  words.only_lag = run->with_lag;
+  Place(at, run);
+}
+
+void PairCheck::Place(const PathPoint& at, OpenRun* run) {
+  Finding& finding = run->run.blocks.finding();
+  finding.where = motion().where;
+  finding.axes = setup_->machine->Readout(motion().At(at.s, at.lag));
+  finding.time_s = motion().start_time + motion().ElapsedTime(at.s, at.lag);
+}
+
+// By the block of the motion at hand.
+void PairCheck::Extend(OpenRun* run) {
+  run->run.blocks.Add(motion().where);
+  run->run.last = number();
+}
+
+void PairCheck::Close(OpenRun* run) {
+  if (!run->open()) return;
+  outcome_.runs.push_back(std::move(run->run));
+  *run = OpenRun();
+}
+
+void PairCheck::CloseRuns() {
+  Close(&contact_);
+  Close(&near_);
+  Close(&stopped_);
+}
+
+}  // namespace ncsim::collision
