@@ -9,8 +9,6 @@ namespace ncsim::collision {
 
 namespace {
 
-using motion::Motion;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kSweptPoses = 64;  // of one motion, before the pair itself is looked at
 // A contact that the kernel finds deeper than this must be seen by FCL on circumscribed meshes too.

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "kinematics/test_machines.h"
@@ -135,6 +136,25 @@ class Rig {
                       motions_.begin() + static_cast<std::ptrdiff_t>(end)}});
     }
     return checker.Finish();
+  }
+  /// The same program with each straight motion in two parts, of one block, somewhere.
+  Rig Split(kinematics::Random* random) const {
+    Rig rig = *this;
+    rig.motions_.clear();
+    for (const motion::Motion& whole : motions_) {
+      const auto* line = std::get_if<motion::AxisLinear>(&whole.path);
+      rig.motions_.push_back(whole);
+      if (line == nullptr) continue;
+      const double s = random->Uniform(0.05, 0.95);
+      const motion::JointVector middle = whole.At(s);
+      rig.motions_.back().path = motion::AxisLinear{line->q0, middle};
+      rig.motions_.back().duration = s * whole.duration;
+      rig.motions_.push_back(whole);
+      rig.motions_.back().path = motion::AxisLinear{middle, line->q1};
+      rig.motions_.back().start_time += s * whole.duration;
+      rig.motions_.back().duration = (1.0 - s) * whole.duration;
+    }
+    return rig;
   }
   const std::vector<motion::Motion>& motions() const { return motions_; }
   const machine::Scene& scene() const { return scene_; }
