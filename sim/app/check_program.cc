@@ -21,6 +21,7 @@
 #include "sim/app/tool_source.h"
 #include "sim/base/text.h"
 #include "sim/machine/load.h"
+#include "sim/machine/margins.h"
 #include "sim/machine/scene.h"
 
 namespace ncsim::app {
@@ -132,6 +133,9 @@ class ProgramCheck {
   bool BuildScene() {
     tools_ = FindTools(*machine_, *job_, *program_);
     scene_ = machine::BuildScene(*machine_, *job_, &diagnostics_);
+    if (!diagnostics_.has_errors()) {
+      machine::CheckMargins(*machine_, *job_, scene_, tools_, &diagnostics_);
+    }
     return !diagnostics_.has_errors();
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/collision/pair_monitor.h"
+#include "sim/machine/margins.h"
 
 namespace ncsim::collision {
 
@@ -17,6 +18,11 @@ using Monitors = std::vector<std::unique_ptr<PairMonitor>>;
 bool HasMachineBody(const Pair& pair) {
   return pair.b->kind == machine::BodyKind::kMachine ||
          (pair.mesh_a && pair.mesh_a->kind == machine::BodyKind::kMachine);
+}
+
+template <typename Body>
+machine::MarginBody AsMarginBody(const Body& body) {
+  return {body.name, body.kind, body.extent.link};
 }
 
 }  // namespace
@@ -73,6 +79,9 @@ Monitors CollisionChecker::State::Watch(std::vector<Pair> pairs) {
     if (!Trusted(pair)) continue;
     BlankState* blank = BlankOf(pair);
     machine::CheckSettings check = settings;
+    check.clearance =
+        NearMissClearance(*machine, settings, AsMarginBody(*pair.b),
+                          pair.tool ? AsMarginBody(*pair.tool) : AsMarginBody(*pair.mesh_a));
     if (machine->nominal_shapes && HasMachineBody(pair)) {
       // The verdict turns on the margin; what is proven elsewhere is a quarter below what is seen.
       check.exact_below = 1.5 * machine::kNominalMargin;
