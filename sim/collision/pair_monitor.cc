@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/base/text.h"
+#include "sim/collision/witness.h"
 
 namespace ncsim::collision {
 
@@ -316,6 +317,22 @@ void PairMonitor::Open(const Motion& motion, std::uint64_t number, Rule rule, Se
   run->words.has_depth = engine_->has_depth();
   run->words.only_lag = run->with_lag;
   Place(motion, at, run);
+  if (run != &near_) run->blocks.finding().points = PointsOf(motion, at);
+}
+
+std::vector<std::array<double, 3>> PairMonitor::PointsOf(const Motion& motion,
+                                                         const PathPoint& contact) const {
+  const std::optional<Witness> witness = FindWitness(pair_, sweep_.Pose(motion, contact));
+  if (!witness) return {};
+  const motion::JointVector q = motion.At(contact.s, contact.lag);
+  const Eigen::Isometry3d X_MB = machine_->tree.Pose(pair_.link_b(), q);
+  std::vector<std::array<double, 3>> points;
+  for (const Eigen::Vector3d& p_B : {witness->a, witness->b}) {
+    const Eigen::Vector3d p = machine_->Coordinates(X_MB * p_B, q);
+    points.push_back({p.x(), p.y(), p.z()});
+  }
+  if (pair_.b->name == pair_.names.front()) std::swap(points.front(), points.back());
+  return points;
 }
 
 void PairMonitor::Place(const Motion& motion, const PathPoint& at, Run* run) {

@@ -3,6 +3,7 @@
 // into one finding each.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -77,6 +78,8 @@ class PairMonitor {
   void Open(const motion::Motion& motion, std::uint64_t number, Rule rule, Severity severity,
             const PathPoint& at, Run* run);
   void Place(const motion::Motion& motion, const PathPoint& at, Run* run);
+  std::vector<std::array<double, 3>> PointsOf(const motion::Motion& motion,
+                                              const PathPoint& contact) const;
   void CloseContact();
   void CloseStopped();
   void CloseNear();
