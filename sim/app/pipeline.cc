@@ -6,7 +6,7 @@
 
 namespace ncsim::app {
 
-Pipeline::Pipeline(Parts parts, std::function<void(SourcePosition)> on_window)
+Pipeline::Pipeline(Parts parts, std::function<void(const motion::Window&)> on_window)
     : parts_(parts), on_window_(std::move(on_window)), checks_(checks::AllChecks(*parts.machine)) {
   window_.motions.reserve(motion::kWindowSize);
 }
@@ -38,7 +38,7 @@ void Pipeline::OnMotion(const motion::Motion& motion) {
 void Pipeline::Flush() {
   if (window_.motions.empty()) return;
   if (parts_.collision != nullptr) parts_.collision->Check(window_);
-  if (on_window_) on_window_(window_.motions.back().where);
+  if (on_window_) on_window_(window_);
   window_.motions.clear();
 }
 
