@@ -295,7 +295,8 @@ TEST_F(CompleteMachineTest, InspectPrintsItInWords) {
         "  X  -600 to 100 mm, rapid 24 m/min, acceleration 3000 mm/s2, home 0 mm\n",
         "  C  endless, rapid 51.5662 deg/s, acceleration 500 deg/s2, home 0 deg\n",
         "  base_link: 12 triangles, 1000 x 1000 x 100, closed\n", "  y_slide: a frame, no shape\n",
-        "  x_slide, z_head: User\n", "  tool_change: X-500 Y0 Z50 B5.73 C0\n",
+        "  x_slide, z_head: User\n", "margins of pairs\n  b_trunnion, z_head: 5 mm\n",
+        "  tool_change: X-500 Y0 Z50 B5.73 C0\n",
         "  rotary centre (gauge line at the pivot): X Y Z -300 -250 -400\n",
         "  tool change: X-500 Y-100 Z0, order Z X Y, measured\n", "lint: nothing found\n"}) {
     EXPECT_THAT(text, ::testing::HasSubstr(line));
