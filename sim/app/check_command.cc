@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/app/check_command.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -20,7 +18,7 @@ namespace {
 
 /// An internal error of one program must not take the others' results with it.
 ProgramOutcome CheckCatching(const CheckOptions& options, const std::string& program,
-                             bool progress) {
+                             const ProgressReport& progress) {
   ProgramOutcome outcome;
   try {
     return CheckProgram(options, program, progress);
@@ -33,12 +31,15 @@ ProgramOutcome CheckCatching(const CheckOptions& options, const std::string& pro
   return outcome;
 }
 
-std::vector<ProgramOutcome> CheckAll(const CheckOptions& options, bool progress) {
+/// `terminal`: where to show how far it is, or null.
+std::vector<ProgramOutcome> CheckAll(const CheckOptions& options, std::ostream* terminal) {
   std::vector<ProgramOutcome> outcomes(options.programs.size());
+  ProgressBar bar(options.programs, terminal);
   std::atomic<std::size_t> next{0};
-  const auto work = [&](bool show) {
+  const auto work = [&] {
     for (std::size_t i = next++; i < outcomes.size(); i = next++) {
-      outcomes[i] = CheckCatching(options, options.programs[i], show);
+      outcomes[i] = CheckCatching(options, options.programs[i], bar.ReportOf(i));
+      bar.Finish(i);
     }
   };
   const int jobs = options.jobs > 0 ? options.jobs : collision::DefaultThreads();
@@ -46,11 +47,11 @@ std::vector<ProgramOutcome> CheckAll(const CheckOptions& options, bool progress)
   // A thread for each program; those that are left help with their collisions.
   const collision::ThreadLimit limit(jobs - static_cast<int>(threads) + 1);
   if (threads <= 1) {
-    work(progress);
+    work();
     return outcomes;
   }
   std::vector<std::jthread> pool;
-  for (std::size_t i = 0; i < threads; ++i) pool.emplace_back(work, false);
+  for (std::size_t i = 0; i < threads; ++i) pool.emplace_back(work);
   pool.clear();  // Joins.
   return outcomes;
 }
@@ -80,8 +81,8 @@ int Check(const CheckOptions& options, std::ostream& out, std::ostream& err) {
       return kExitBadInput;
     }
   }
-  const bool progress = &err == &std::cerr && isatty(STDERR_FILENO) == 1;
-  const std::vector<ProgramOutcome> outcomes = CheckAll(options, progress);
+  const bool progress = &err == &std::cerr && StderrShowsProgress();
+  const std::vector<ProgramOutcome> outcomes = CheckAll(options, progress ? &err : nullptr);
   std::vector<int> codes;
   for (const ProgramOutcome& outcome : outcomes) {
     err << outcome.messages;

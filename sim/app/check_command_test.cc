@@ -143,6 +143,26 @@ TEST_F(CheckCommandTest, UnreadableInputsAreBadInput) {
   EXPECT_EQ(CheckWithJob({good, "--trace", Path("no/such/folder.csv")}), kExitBadInput);
 }
 
+// The tip passes 4 mm above the block.
+TEST_F(CheckCommandTest, AMarginOfTheJobGoesBeforeTheClearanceOfTheCommandLine) {
+  const std::string program = Write("a.nc", Program("G00 Z50.\nG01 Z24. F2000.\nG00 Z200."));
+  const auto check = [&](const std::string& body, const std::string& clearance) {
+    Write("job.toml", std::string(kJob) +
+                          "[[fixture]]\nname = \"block\"\nbox = [80.0, 80.0, 20.0]\n"
+                          "at = { on = \"workpiece_mount\" }\n[[check.margin]]\nbodies = [\"" +
+                          body + "\", \"block\"]\nclearance = " + clearance + "\n");
+    return CheckWithJob({program, "--clearance", "4.5"});
+  };
+  EXPECT_EQ(check("T1.flutes", "3.95"), kExitPass) << out_ << err_;
+  EXPECT_THAT(out_, Not(HasSubstr("[near-miss]")));
+  EXPECT_EQ(check("flutes", "4.05"), kExitPass) << out_ << err_;
+  EXPECT_THAT(out_, HasSubstr("flutes of T1 come within 4 mm of block (clearance 4.05 mm) at "));
+  EXPECT_EQ(check("T2.flutes", "4.05"), kExitBadInput);
+  EXPECT_THAT(err_, HasSubstr("job.toml:17:11: error: there is no body 'T2.flutes' in the scene or "
+                              "among the tools (did you mean 'T1.flutes'?)\n"));
+  EXPECT_EQ(out_, "");
+}
+
 TEST_F(CheckCommandTest, AssumptionsKeepFromPassingUntilAccepted) {
   const std::string program = Write("a.nc", Program("G01 Z150. F500."));
   EXPECT_EQ(CheckPlain({program, "--model", "umc750"}), kExitUnproven);

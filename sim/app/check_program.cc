@@ -2,10 +2,10 @@
 #include "sim/app/check_program.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -21,6 +21,7 @@
 #include "sim/app/tool_source.h"
 #include "sim/base/text.h"
 #include "sim/machine/load.h"
+#include "sim/machine/margins.h"
 #include "sim/machine/scene.h"
 
 namespace ncsim::app {
@@ -51,7 +52,8 @@ class SourceLines {
 
 class ProgramCheck {
  public:
-  ProgramCheck(const CheckOptions& options, const std::string& program, bool progress)
+  ProgramCheck(const CheckOptions& options, const std::string& program,
+               const ProgressReport& progress)
       : options_(options), name_(program), progress_(progress) {}
 
   ProgramOutcome Run() {
@@ -132,6 +134,9 @@ class ProgramCheck {
   bool BuildScene() {
     tools_ = FindTools(*machine_, *job_, *program_);
     scene_ = machine::BuildScene(*machine_, *job_, &diagnostics_);
+    if (!diagnostics_.has_errors()) {
+      machine::CheckMargins(*machine_, *job_, scene_, tools_, &diagnostics_);
+    }
     return !diagnostics_.has_errors();
   }
 
@@ -154,11 +159,22 @@ class ProgramCheck {
     return false;
   }
 
-  void ShowProgress(SourcePosition where) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!progress_ || now - last_shown_ < std::chrono::milliseconds(200)) return;
-    last_shown_ = now;
-    std::cerr << "\r" << name_ << ": line " << where.line << "   " << std::flush;
+  /// Tells `progress_` by lines of the program itself; a subprogram's are those of its call.
+  std::function<void(const motion::Window&)> WindowReport() const {
+    if (!progress_) return {};
+    const std::string_view text = program_->text();
+    const auto lines = std::max(std::count(text.begin(), text.end(), '\n'),
+                                std::count(text.begin(), text.end(), '\r'));
+    return [this, lines = static_cast<double>(lines + 1), line = 0, blocks = std::uint64_t{0},
+            last = SourcePosition()](const motion::Window& window) mutable {
+      for (const motion::Motion& motion : window.motions) {
+        const SourcePosition& where = motion.where;
+        if (where.line != last.line || where.file != last.file) ++blocks;
+        if (where.file == 0) line = where.line;
+        last = where;
+      }
+      progress_(line / lines, blocks);
+    };
   }
 
   void Simulate() {
@@ -173,11 +189,10 @@ class ProgramCheck {
     parts.trace = trace_ ? &*trace_ : nullptr;
     parts.collision = checker_ ? &*checker_ : nullptr;
     parts.log = &log_;
-    pipeline_.emplace(parts, [this](SourcePosition where) { ShowProgress(where); });
+    pipeline_.emplace(parts, WindowReport());
     summary_ = control::RunProgram(program_, *machine_, *job_, tools_, &files_, &part_frames_,
                                    &*pipeline_);
     pipeline_->Finish();
-    if (progress_) std::cerr << "\r\033[K" << std::flush;
   }
 
   void RejectMotionless() {
@@ -271,7 +286,7 @@ class ProgramCheck {
 
   const CheckOptions& options_;
   const std::string name_;
-  const bool progress_;
+  const ProgressReport& progress_;
   ProgramOutcome outcome_;
   Diagnostics diagnostics_;
   std::shared_ptr<const nc::Program> program_;
@@ -288,13 +303,12 @@ class ProgramCheck {
   std::optional<Pipeline> pipeline_;
   control::RunSummary summary_;
   report::CheckResult result_;
-  std::chrono::steady_clock::time_point last_shown_{};
 };
 
 }  // namespace
 
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
-                            bool progress) {
+                            const ProgressReport& progress) {
   return ProgramCheck(options, program, progress).Run();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/app/options.h"
+#include "sim/app/progress.h"
 
 namespace ncsim::app {
 
@@ -15,7 +16,8 @@ struct ProgramOutcome {
   std::string messages;  ///< Trouble with the inputs, for standard error.
 };
 
-/// Checks one program. `progress` shows on standard error how far it is.
-ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program, bool progress);
+/// Checks one program. `progress`, if not empty, is told how far it is.
+ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
+                            const ProgressReport& progress);
 
 }  // namespace ncsim::app

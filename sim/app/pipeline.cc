@@ -6,7 +6,7 @@
 
 namespace ncsim::app {
 
-Pipeline::Pipeline(Parts parts, std::function<void(SourcePosition)> on_window)
+Pipeline::Pipeline(Parts parts, std::function<void(const motion::Window&)> on_window)
     : parts_(parts), on_window_(std::move(on_window)), checks_(checks::AllChecks(*parts.machine)) {
   window_.motions.reserve(motion::kWindowSize);
 }
@@ -37,11 +37,10 @@ void Pipeline::OnMotion(const motion::Motion& motion) {
 
 void Pipeline::Flush() {
   if (window_.motions.empty()) return;
-  const SourcePosition reached = window_.motions.back().where;
+  if (on_window_) on_window_(window_);
   if (parts_.collision != nullptr) parts_.collision->Check(std::exchange(window_, {}));
   window_.motions.clear();
   window_.motions.reserve(motion::kWindowSize);
-  if (on_window_) on_window_(reached);
 }
 
 void Pipeline::Finish() {

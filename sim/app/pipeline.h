@@ -29,8 +29,8 @@ class Pipeline : public control::RunSink {
     collision::CollisionChecker* collision = nullptr;
     FindingLog* log = nullptr;
   };
-  /// `on_window` is called after each window with the position reached: for a progress display.
-  Pipeline(Parts parts, std::function<void(SourcePosition)> on_window);
+  /// `on_window` is called with each window as it goes to be checked: for a progress display.
+  Pipeline(Parts parts, std::function<void(const motion::Window&)> on_window);
 
   void OnMotion(const motion::Motion& motion) override;
   void OnFinding(Finding finding) override { parts_.log->Add(std::move(finding)); }
@@ -47,7 +47,7 @@ class Pipeline : public control::RunSink {
   double ToolLength(int number) const;
 
   Parts parts_;
-  std::function<void(SourcePosition)> on_window_;
+  std::function<void(const motion::Window&)> on_window_;
   std::vector<std::unique_ptr<checks::Check>> checks_;
   std::vector<Finding> found_;
   motion::Window window_;

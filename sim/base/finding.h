@@ -2,6 +2,7 @@
 // Findings: the verdict on the machining, as distinct from Diagnostics (trouble reading an input).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,6 +61,9 @@ struct Finding {
   std::vector<std::string> bodies;     ///< The pair, for contacts and near misses.
   std::optional<double> clearance_mm;  ///< Minus the depth for a contact.
   AxisReadout axes;                    ///< At the first contact.
+  /// Of a contact: where it begins, a point on the surface of each of `bodies` in machine
+  /// coordinates, mm (Machine::Coordinates); or empty.
+  std::vector<std::array<double, 3>> points;
   std::optional<double> time_s;
 };
 

@@ -128,8 +128,7 @@ void Tell(Batch* batch, NumberedFindings* findings) {
       for (const auto& pair : *group) {
         PairOutcome& outcome = run.outcomes[i++];
         pair->carry.least = std::min(pair->carry.least, outcome.least.upper);
-        pair->report.Add(pair->setup.pair, std::move(outcome), run.number + run.motions.size() - 1,
-                         findings);
+        pair->report.Add(pair->setup, *run.travel, run.number, std::move(outcome), findings);
       }
     }
   }

@@ -75,7 +75,7 @@ const machine::Profile& ProfileOf(const machine::Tool& tool, machine::BodyKind k
 }
 
 ToolBody::ToolBody(const machine::Tool& tool_data, machine::BodyKind body_kind, int spindle_link)
-    : name("T" + std::to_string(tool_data.number) + "." + Word(body_kind)),
+    : name(machine::ToolBodyName(tool_data.number, Word(body_kind))),
       kind(body_kind),
       tool(tool_data.number),
       length(tool_data.length),

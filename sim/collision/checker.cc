@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/collision/batch.h"
+#include "sim/machine/margins.h"
 
 namespace ncsim::collision {
 
@@ -16,6 +17,11 @@ namespace {
 bool HasMachineBody(const Pair& pair) {
   return pair.b->kind == machine::BodyKind::kMachine ||
          (pair.mesh_a && pair.mesh_a->kind == machine::BodyKind::kMachine);
+}
+
+template <typename Body>
+machine::MarginBody AsMarginBody(const Body& body) {
+  return {body.name, body.kind, body.extent.link};
 }
 
 }  // namespace
@@ -80,6 +86,9 @@ WatchedPairs CollisionChecker::State::Watch(std::vector<Pair> pairs) {
     if (!Trusted(pair)) continue;
     BlankState* blank = BlankOf(pair);
     machine::CheckSettings check = settings;
+    check.clearance =
+        NearMissClearance(*machine, settings, AsMarginBody(*pair.b),
+                          pair.tool ? AsMarginBody(*pair.tool) : AsMarginBody(*pair.mesh_a));
     if (machine->nominal_shapes && HasMachineBody(pair)) {
       // The verdict turns on the margin; what is proven elsewhere is a quarter below what is seen.
       check.exact_below = 1.5 * machine::kNominalMargin;
@@ -194,7 +203,7 @@ CollisionResult CollisionChecker::Finish() {
     for (const auto& watched : *pairs) {
       const Pair& pair = watched->setup.pair;
       PairReport& report = watched->report;
-      report.Finish(pair, &state_->findings);
+      report.Finish(watched->setup, &state_->findings);
       result.queries += report.queries();
       if (watched->has_clearance()) {
         result.clearances.push_back(

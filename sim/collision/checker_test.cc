@@ -123,6 +123,63 @@ TEST(CheckerTest, NearMissIsOneFindingARun) {
   EXPECT_THAT(rig.Run().findings, IsEmpty());
 }
 
+// The pin (flutes and shank) passes two posts, `gap` from each.
+CollisionResult BetweenPosts(double gap, double general, std::vector<machine::PairMargin> margins) {
+  Rig rig;
+  rig.check().clearance = general;
+  rig.check().margins = std::move(margins);
+  rig.AddBox("left", BodyKind::kFixture, {-3, -20, 0}, {3, -5 - gap, 60});
+  rig.AddBox("right", BodyKind::kFixture, {-3, 5 + gap, 0}, {3, 20, 60});
+  rig.Start(-100, 0, 10);
+  rig.Rapid(100, 0, 10);
+  return rig.Run();
+}
+
+machine::PairMargin MarginOf(std::string a, std::string b, double clearance) {
+  return {{{{std::move(a)}, {std::move(b)}}}, clearance};
+}
+
+TEST(CheckerTest, AMarginIsThatOfItsPairAlone) {
+  const auto margin = MarginOf("T3.flutes", "left", 3.0);
+  EXPECT_THAT(BetweenPosts(3.05, 0.0, {margin}).findings, IsEmpty());
+  const CollisionResult near = BetweenPosts(2.95, 0.0, {margin});
+  ASSERT_THAT(near.findings, SizeIs(1)) << Words(near);
+  EXPECT_EQ(near.findings[0].rule, Rule::kNearMiss);
+  EXPECT_THAT(near.findings[0].bodies, ElementsAre("T3.flutes", "left"));
+  EXPECT_THAT(near.findings[0].message, HasSubstr("(clearance 3 mm)"));
+  EXPECT_NEAR(*near.findings[0].clearance_mm, 2.95, 0.02);
+}
+
+// Four pairs are near in general; a margin takes its own out, or lets it alone be nearer.
+TEST(CheckerTest, AMarginMayBeLessThanTheGeneralClearance) {
+  const auto near = [](double gap, double margin) {
+    return Of(BetweenPosts(gap, 5.0, {MarginOf("left", "shank", margin)}), Rule::kNearMiss).size();
+  };
+  EXPECT_EQ(near(2.95, 3.0), 4u);
+  EXPECT_EQ(near(3.05, 3.0), 3u);
+  EXPECT_EQ(near(0.05, 0.0), 3u);
+}
+
+TEST(CheckerTest, AMarginOfTwoLinksComesFromTheModel) {
+  for (const auto& [gauge_line, findings] : {std::pair(2.95, 1u), {3.05, 0u}}) {
+    Rig rig;
+    rig.facts().tool = 0;
+    rig.AddBody("head", BodyKind::kMachine, BoxMesh({-50, -50, -100}, {50, 50, 0}),
+                rig.machine().spindle_link);
+    rig.AddBox("platter", BodyKind::kMachine, {-100, -100, -40}, {100, 100, 0});
+    rig.AddBox("vise", BodyKind::kFixture, {-100, -100, -40}, {100, 100, 0});
+    const auto [low, high] = std::minmax(rig.machine().table_link, rig.machine().spindle_link);
+    rig.machine().margins.push_back({low, high, 3.0, 0});
+    rig.Start(0, 0, 300);
+    rig.Rapid(0, 0, gauge_line - Rig::kToolLength);
+    const CollisionResult result = rig.Run();
+    ASSERT_THAT(result.findings, SizeIs(findings)) << Words(result);
+    if (findings == 0) continue;
+    EXPECT_EQ(result.findings[0].rule, Rule::kNearMiss);
+    EXPECT_THAT(result.findings[0].bodies, ElementsAre("head", "platter"));
+  }
+}
+
 TEST(CheckerTest, ContainedFromTheStart) {
   for (bool inside : {true, false}) {
     Rig rig;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "sim/machine/mesh.h"
 
@@ -32,6 +33,8 @@ class FclMesh {
   friend std::optional<double> Distance(const FclMesh&, const FclMesh&, const Eigen::Isometry3d&,
                                         double);
   friend std::optional<bool> Collide(const FclMesh&, const FclMesh&, const Eigen::Isometry3d&);
+  friend std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> CommonOrNearestPoints(
+      const FclMesh&, const FclMesh&, const Eigen::Isometry3d&);
   std::unique_ptr<Model> model_;
 };
 
@@ -43,5 +46,11 @@ std::optional<double> Distance(const FclMesh& a, const FclMesh& b, const Eigen::
 
 /// Do the two surfaces meet? nullopt: FCL failed.
 std::optional<bool> Collide(const FclMesh& a, const FclMesh& b, const Eigen::Isometry3d& X_BA);
+
+/// A point on the surface of A and one on that of B, in B's frame: where the surfaces meet, one
+/// that both have; else where they are nearest. nullopt: FCL failed, or the triangles that meet
+/// only graze each other in a plane.
+std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> CommonOrNearestPoints(
+    const FclMesh& a, const FclMesh& b, const Eigen::Isometry3d& X_BA);
 
 }  // namespace ncsim::collision

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/collision/contact_text.h"
+#include "sim/collision/witness.h"
+
 namespace ncsim::collision {
 
 namespace {
@@ -153,8 +156,8 @@ void PairCheck::OnMotion() {
     if (cutting()) carry_->reference.OnFeed(0.0);
     return;
   }
-  judgement.watch.run_least = near_.open() ? near_.run.least : kInfinity;
-  judgement.watch.find_first = !contact_.open() || pair().role == PairRole::kOtherBlank;
+  judgement.watch.run_least = near_.open ? near_.run.least : kInfinity;
+  judgement.watch.find_first = !contact_.open || pair().role == PairRole::kOtherBlank;
   if (ClearWhenSwept(judgement.watch)) {
     CloseRuns();
     return;
@@ -169,7 +172,7 @@ void PairCheck::OnMotion() {
     OnClear(judgement, result);
   }
   if (!IsRapid(motion())) {
-    const double seen = contact_.open() ? contact_.run.least : result.least.upper;
+    const double seen = contact_.open ? contact_.run.least : result.least.upper;
     carry_->reference.OnFeed(std::max(0.0, -seen));
   }
 }
@@ -222,17 +225,17 @@ void PairCheck::OnSpindleStopped() {
     return;
   }
   Watch touch;
-  touch.find_first = !stopped_.open();
+  touch.find_first = !stopped_.open;
   const SweepResult result = sweep_.Probe(motion(), touch);
   if (!result.contact) {
     Close(&stopped_);
     return;
   }
-  if (!stopped_.open()) {
+  if (!stopped_.open) {
     Open(ContactRun::Kind::kSpindleStopped, Rule::kSpindleStopped, Severity::kError, result.first,
          &stopped_);
   }
-  Extend(&stopped_);
+  stopped_.run.last = at_;
 }
 
 void PairCheck::OnContact(const Judgement& judgement, const SweepResult& result) {
@@ -249,17 +252,17 @@ void PairCheck::OnContact(const Judgement& judgement, const SweepResult& result)
     }
     severity = Severity::kWarning;
   }
-  if (contact_.open()) {
-    const Finding& fault = contact_.run.blocks.finding();
-    if (fault.rule != judgement.rule || fault.severity != severity) Close(&contact_);
+  if (contact_.open) {
+    const ContactRun& run = contact_.run;
+    if (run.rule != judgement.rule || run.severity != severity) Close(&contact_);
   }
-  if (!contact_.open()) {
+  if (!contact_.open) {
     Open(ContactRun::Kind::kContact, judgement.rule, severity, result.first, &contact_);
-    contact_.run.words.tolerance = judgement.tolerance;
+    contact_.run.tolerance = judgement.tolerance;
     if (engine_->has_depth()) contact_.run.least = std::min(0.0, result.least.upper);
   }
   outcome_.touched = true;
-  Extend(&contact_);
+  contact_.run.last = at_;
   Deepen(result.first, judgement.watch.track);
   // One warning a tool is enough: until the stock is simulated there is nothing more to say.
   if (pair().role == PairRole::kOtherBlank && severity == Severity::kWarning) {
@@ -278,7 +281,7 @@ void PairCheck::OnFirstCut(const SweepResult& result) {
 
 void PairCheck::Deepen(const PathPoint& contact, bool track) {
   if (!engine_->has_depth()) return;
-  const bool first = contact_.run.blocks.blocks() == 1;
+  const bool first = contact_.run.first == at_;
   const double known = first ? kInfinity : contact_.run.least;
   PathPoint at;
   const Interval depth =
@@ -304,59 +307,60 @@ void PairCheck::OnClear(const Judgement& judgement, const SweepResult& result) {
     return;
   }
   const Rule rule = rounded ? Rule::kUncertified : Rule::kNearMiss;
-  if (near_.open() && near_.run.blocks.finding().rule != rule) Close(&near_);
-  if (!near_.open()) {
+  if (near_.open && near_.run.rule != rule) Close(&near_);
+  if (!near_.open) {
     Open(ContactRun::Kind::kNear, rule, Info(rule).severity, result.least_at, &near_);
   }
-  near_.run.words.tolerance = rounded ? watch.rounding : watch.clearance;
+  near_.run.tolerance = rounded ? watch.rounding : watch.clearance;
   if (result.least.upper < near_.run.least) {
     near_.run.least = result.least.upper;
     Place(result.least_at, &near_);
   }
-  Extend(&near_);
+  near_.run.last = at_;
 }
 
 void PairCheck::ReportUncertified(std::string why) {
   if (!outcome_.uncertified.empty()) return;
   outcome_.uncertified = std::move(why);
-  outcome_.uncertified_where = motion().where;
-  outcome_.uncertified_number = number();
+  outcome_.uncertified_at = at_;
 }
 
 void PairCheck::Open(ContactRun::Kind kind, Rule rule, Severity severity, const PathPoint& at,
                      OpenRun* run) {
   *run = OpenRun();
-  run->run.kind = kind;
-  run->run.first = number();
-  Finding finding = MakeFinding(rule, motion().where, "");
-  finding.severity = severity;
-  finding.bodies = pair().names;
-  run->run.blocks.Start(std::move(finding));
+  run->open = true;
   run->with_lag = at.lag > 0.0;
-  ContactWords& words = run->run.words;
-  words.rule = rule;
-  words.severity = severity;
-  words.has_depth = engine_->has_depth();
-  words.only_lag = run->with_lag;
+  run->run.kind = kind;
+  run->run.rule = rule;
+  run->run.severity = severity;
+  run->run.first = at_;
+  run->run.only_lag = run->with_lag;
   Place(at, run);
+  if (kind != ContactRun::Kind::kNear) run->run.points = PointsOf(at);
+}
+
+std::vector<std::array<double, 3>> PairCheck::PointsOf(const PathPoint& contact) const {
+  const std::optional<Witness> witness = FindWitness(pair(), sweep_.Pose(motion(), contact));
+  if (!witness) return {};
+  const motion::JointVector q = motion().At(contact.s, contact.lag);
+  const machine::Machine& machine = *setup_->machine;
+  const Eigen::Isometry3d X_MB = machine.tree.Pose(pair().link_b(), q);
+  std::vector<std::array<double, 3>> points;
+  for (const Eigen::Vector3d& p_B : {witness->a, witness->b}) {
+    const Eigen::Vector3d p = machine.Coordinates(X_MB * p_B, q);
+    points.push_back({p.x(), p.y(), p.z()});
+  }
+  if (pair().b->name == pair().names.front()) std::swap(points.front(), points.back());
+  return points;
 }
 
 void PairCheck::Place(const PathPoint& at, OpenRun* run) {
-  Finding& finding = run->run.blocks.finding();
-  finding.where = motion().where;
-  finding.axes = setup_->machine->Readout(motion().At(at.s, at.lag));
-  finding.time_s = motion().start_time + motion().ElapsedTime(at.s, at.lag);
-}
-
-// By the block of the motion at hand.
-void PairCheck::Extend(OpenRun* run) {
-  run->run.blocks.Add(motion().where);
-  run->run.last = number();
+  run->run.motion = at_;
+  run->run.at = at;
 }
 
 void PairCheck::Close(OpenRun* run) {
-  if (!run->open()) return;
-  outcome_.runs.push_back(std::move(run->run));
+  if (run->open) outcome_.runs.push_back(std::move(run->run));
   *run = OpenRun();
 }
 

@@ -4,11 +4,13 @@
 // checked in any order, at a time, or not at all when the outcome is known.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/collision/contact_rules.h"
 #include "sim/collision/engine.h"
@@ -58,10 +60,9 @@ class PairCheck {
   /// A fault that goes on.
   struct OpenRun {
     ContactRun run;
+    bool open = false;
     bool with_lag = false;
     int depth_budget = 3000;  ///< Poses to look for the deepest one.
-
-    bool open() const { return run.blocks.open(); }
   };
 
   const motion::Motion& motion() const { return (*travel_)[at_]; }
@@ -86,7 +87,7 @@ class PairCheck {
   void ReportUncertified(std::string why);
   void Open(ContactRun::Kind kind, Rule rule, Severity severity, const PathPoint& at, OpenRun* run);
   void Place(const PathPoint& at, OpenRun* run);
-  void Extend(OpenRun* run);
+  std::vector<std::array<double, 3>> PointsOf(const PathPoint& contact) const;
   void Close(OpenRun* run);
   void CloseRuns();
 

@@ -13,7 +13,7 @@ namespace {
 
 std::string DescribeNear(const Pair& pair, const ContactRun& run, const Finding& finding) {
   const std::string& a = pair.names.front();
-  const std::string limit = Short(run.words.tolerance, 3) + " mm";
+  const std::string limit = Short(run.tolerance, 3) + " mm";
   return Spoken(a) + " " + Verb(a, "comes", "come") + " within " + Short(*finding.clearance_mm, 2) +
          " mm of " + Spoken(pair.names.back()) +
          (finding.rule == Rule::kNearMiss
@@ -22,57 +22,68 @@ std::string DescribeNear(const Pair& pair, const ContactRun& run, const Finding&
          " at " + ToString(finding.axes);
 }
 
-Finding Describe(const Pair& pair, ContactRun* run) {
-  Finding& finding = run->blocks.finding();
-  switch (run->kind) {
-    case ContactRun::Kind::kNear:
-      finding.clearance_mm = std::max(0.0, run->least);
-      finding.message = DescribeNear(pair, *run, finding);
-      break;
-    case ContactRun::Kind::kContact:
-      run->words.depth = std::max(0.0, -run->least);
-      if (run->words.has_depth) finding.clearance_mm = -run->words.depth;
-      finding.message = DescribeContact(pair, run->words, ToString(finding.axes));
-      break;
-    case ContactRun::Kind::kSpindleStopped:
-      finding.message = DescribeContact(pair, run->words, ToString(finding.axes));
-      break;
-  }
-  return run->blocks.Take();
+/// Placed, and without its message.
+Finding Place(const PairSetup& setup, const motion::Travel& motions, ContactRun* run) {
+  const motion::Motion& motion = motions[run->motion];
+  Finding finding = MakeFinding(run->rule, motion.where, "");
+  finding.severity = run->severity;
+  finding.bodies = setup.pair.names;
+  finding.axes = setup.machine->Readout(motion.At(run->at.s, run->at.lag));
+  finding.time_s = motion.start_time + motion.ElapsedTime(run->at.s, run->at.lag);
+  finding.points = std::move(run->points);
+  return finding;
 }
 
-bool GoesOn(const ContactRun& run, const ContactRun& next) {
-  const Finding& fault = run.blocks.finding();
-  const Finding& then = next.blocks.finding();
-  return !run.done && run.last + 1 == next.first && fault.rule == then.rule &&
-         fault.severity == then.severity;
-}
-
-/// `next` into `run`. A near miss stands at its nearest pose, a contact where it begins.
-void Join(ContactRun* run, ContactRun* next) {
-  if (run->kind == ContactRun::Kind::kNear && next->least < run->least) {
-    run->blocks.finding() = next->blocks.finding();
+void Describe(const Pair& pair, const ContactRun& run, Finding* finding) {
+  if (run.kind == ContactRun::Kind::kNear) {
+    finding->clearance_mm = std::max(0.0, run.least);
+    finding->message = DescribeNear(pair, run, *finding);
+    return;
   }
-  run->blocks.Append(next->blocks);
-  run->last = next->last;
-  run->least = std::min(run->least, next->least);
+  ContactWords words;
+  words.rule = run.rule;
+  words.severity = run.severity;
+  words.depth = std::max(0.0, -run.least);
+  words.has_depth = pair.tool != nullptr;
+  words.only_lag = run.only_lag;
+  words.tolerance = run.tolerance;
+  const bool deep = run.kind == ContactRun::Kind::kContact && words.has_depth;
+  if (deep) finding->clearance_mm = -words.depth;
+  finding->message = DescribeContact(pair, words, ToString(finding->axes));
 }
 
 }  // namespace
 
-std::optional<ContactRun>& PairReport::open(ContactRun::Kind kind) {
-  return open_[static_cast<std::size_t>(kind)];
-}
-
-void PairReport::Close(const Pair& pair, std::optional<ContactRun>* run,
+void PairReport::Close(const PairSetup& setup, std::optional<Open>* run,
                        NumberedFindings* findings) {
   if (!run->has_value()) return;
-  findings->emplace_back((*run)->first, Describe(pair, &**run));
+  Describe(setup.pair, (*run)->run, &(*run)->blocks.finding());
+  findings->emplace_back((*run)->first, (*run)->blocks.Take());
   run->reset();
 }
 
-void PairReport::Add(const Pair& pair, PairOutcome outcome, std::uint64_t last,
-                     NumberedFindings* findings) {
+// One with the run before, or the next one. A near miss stands at its nearest pose, a contact where
+// it begins.
+void PairReport::Take(const PairSetup& setup, Open next, NumberedFindings* findings) {
+  std::optional<Open>& open = open_[static_cast<std::size_t>(next.run.kind)];
+  const bool goes_on = open.has_value() && !open->run.done && open->last + 1 == next.first &&
+                       open->run.rule == next.run.rule && open->run.severity == next.run.severity;
+  if (!goes_on) {
+    Close(setup, &open, findings);
+    open = std::move(next);
+    return;
+  }
+  if (next.run.kind == ContactRun::Kind::kNear && next.run.least < open->run.least) {
+    open->blocks.finding() = next.blocks.finding();
+  }
+  open->blocks.Append(next.blocks);
+  open->last = next.last;
+  open->run.done = next.run.done;
+  open->run.least = std::min(open->run.least, next.run.least);
+}
+
+void PairReport::Add(const PairSetup& setup, const motion::Travel& run, std::uint64_t number,
+                     PairOutcome outcome, NumberedFindings* findings) {
   queries_ += outcome.queries;
   touched_ = touched_ || outcome.touched;
   least_.lower = std::min(least_.lower, outcome.least.lower);
@@ -82,28 +93,27 @@ void PairReport::Add(const Pair& pair, PairOutcome outcome, std::uint64_t last,
   }
   if (!outcome.uncertified.empty() && !uncertified_) {
     uncertified_ = true;
-    Finding finding =
-        MakeFinding(Rule::kUncertified, outcome.uncertified_where, std::move(outcome.uncertified));
-    finding.bodies = pair.names;
-    findings->emplace_back(outcome.uncertified_number, std::move(finding));
+    Finding finding = MakeFinding(Rule::kUncertified, run[outcome.uncertified_at].where,
+                                  std::move(outcome.uncertified));
+    finding.bodies = setup.pair.names;
+    findings->emplace_back(number + outcome.uncertified_at, std::move(finding));
   }
-  for (ContactRun& run : outcome.runs) {
-    std::optional<ContactRun>& before = open(run.kind);
-    if (before.has_value() && GoesOn(*before, run)) {
-      Join(&*before, &run);
-    } else {
-      Close(pair, &before, findings);
-      before = std::move(run);
-    }
-    if (before->last < last) Close(pair, &before, findings);
+  for (ContactRun& fault : outcome.runs) {
+    Open next;
+    next.blocks.Start(Place(setup, run, &fault));
+    for (std::size_t i = fault.first; i <= fault.last; ++i) next.blocks.Add(run[i].where);
+    next.first = number + fault.first;
+    next.last = number + fault.last;
+    next.run = std::move(fault);
+    Take(setup, std::move(next), findings);
   }
-  for (std::optional<ContactRun>& run : open_) {
-    if (run.has_value() && run->last < last) Close(pair, &run, findings);
+  for (std::optional<Open>& open : open_) {
+    if (open.has_value() && open->last + 1 < number + run.size()) Close(setup, &open, findings);
   }
 }
 
-void PairReport::Finish(const Pair& pair, NumberedFindings* findings) {
-  for (std::optional<ContactRun>& run : open_) Close(pair, &run, findings);
+void PairReport::Finish(const PairSetup& setup, NumberedFindings* findings) {
+  for (std::optional<Open>& open : open_) Close(setup, &open, findings);
 }
 
 }  // namespace ncsim::collision

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "sim/base/finding.h"
+#include "sim/base/run_finding.h"
+#include "sim/collision/pair_check.h"
 #include "sim/collision/pair_outcome.h"
-#include "sim/collision/pairs.h"
 
 namespace ncsim::collision {
 
@@ -19,11 +20,12 @@ using NumberedFindings = std::vector<std::pair<std::uint64_t, Finding>>;
 
 class PairReport {
  public:
-  /// In program order. `last` is the number of the last motion of the run. A fault that goes on
-  /// from the run before is one with it.
-  void Add(const Pair& pair, PairOutcome outcome, std::uint64_t last, NumberedFindings* findings);
+  /// In program order. `number` is that of the first motion of the run. A fault that goes on from
+  /// the run before is one with it.
+  void Add(const PairSetup& setup, const motion::Travel& run, std::uint64_t number,
+           PairOutcome outcome, NumberedFindings* findings);
   /// After the last motion.
-  void Finish(const Pair& pair, NumberedFindings* findings);
+  void Finish(const PairSetup& setup, NumberedFindings* findings);
 
   /// Over all motions so far.
   const Interval& least() const { return least_; }
@@ -33,10 +35,17 @@ class PairReport {
   std::uint64_t queries() const { return queries_; }
 
  private:
-  std::optional<ContactRun>& open(ContactRun::Kind kind);
-  void Close(const Pair& pair, std::optional<ContactRun>* run, NumberedFindings* findings);
+  /// A fault that may go on in the next run.
+  struct Open {
+    ContactRun run;
+    RunFinding blocks;
+    std::uint64_t first = 0, last = 0;  ///< Numbers of motions.
+  };
 
-  std::array<std::optional<ContactRun>, ContactRun::kKinds> open_;
+  void Take(const PairSetup& setup, Open next, NumberedFindings* findings);
+  static void Close(const PairSetup& setup, std::optional<Open>* run, NumberedFindings* findings);
+
+  std::array<std::optional<Open>, ContactRun::kKinds> open_;
   Interval least_ = PairOutcome().least;
   SourcePosition least_where_;
   bool touched_ = false;

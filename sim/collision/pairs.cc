@@ -16,14 +16,6 @@ bool Rigid(const machine::Machine& machine, int link_a, int link_b) {
   return kinematics::RelativePath(machine.tree, link_b, link_a).rigid();
 }
 
-bool Disabled(const machine::Machine& machine, int link_a, int link_b) {
-  return std::any_of(machine.disabled_pairs.begin(), machine.disabled_pairs.end(),
-                     [&](const machine::LinkPair& pair) {
-                       return (pair.link_a == link_a && pair.link_b == link_b) ||
-                              (pair.link_a == link_b && pair.link_b == link_a);
-                     });
-}
-
 // Moving joints between the spindle and a link: the fewer, the nearer to the tool.
 std::size_t JointsToSpindle(const machine::Machine& machine, int link) {
   return kinematics::RelativePath(machine.tree, machine.spindle_link, link).joint_indices().size();
@@ -98,7 +90,7 @@ std::vector<Pair> ScenePairs(const machine::Machine& machine, const MeshBodies& 
       const int link_b = b->extent.link;
       if (Rigid(machine, link_a, link_b)) continue;
       const bool links = a->kind == BodyKind::kMachine && b->kind == BodyKind::kMachine;
-      if (links && Disabled(machine, link_a, link_b)) continue;
+      if (links && machine.Disabled(link_a, link_b)) continue;
       if (JointsToSpindle(machine, link_b) < JointsToSpindle(machine, link_a)) std::swap(a, b);
       Pair pair;
       pair.role = RoleOf(a->kind, b->kind);

@@ -98,6 +98,16 @@ std::string Pairs(const Machine& machine) {
   return text;
 }
 
+/// Nothing where the model has none.
+std::string Margins(const Machine& machine) {
+  std::string text = machine.margins.empty() ? "" : "margins of pairs\n";
+  for (const LinkMargin& margin : machine.margins) {
+    text += "  " + LinkName(machine, margin.link_a) + ", " + LinkName(machine, margin.link_b) +
+            ": " + Short(margin.clearance) + " mm\n";
+  }
+  return text;
+}
+
 std::string Control(const Machine& machine) {
   const ControlData& control = machine.control;
   std::string text =
@@ -143,7 +153,7 @@ std::string Inspect(const Machine& machine, const Diagnostics& diagnostics) {
   }
   text += Bodies(machine);
   text += std::string("shapes: ") + (machine.nominal_shapes ? "nominal" : "measured") + "\n";
-  text += Pairs(machine);
+  text += Pairs(machine) + Margins(machine);
   text += "named poses\n";
   for (const auto& [name, q] : machine.named_poses) {
     text += "  " + name + ": " + PoseLine(machine, q) + "\n";

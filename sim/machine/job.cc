@@ -122,6 +122,43 @@ void ReadBodies(const JobContext& context, TomlTable* root, Job* job) {
   single("stock", BodyKind::kStock);
 }
 
+void ReadMargin(double unit, TomlTable table, CheckSettings* check) {
+  PairMargin margin;
+  std::size_t named = 0;
+  if (const TomlValue* bodies = table.Require("bodies")) {
+    const bool two = bodies->kind == TomlValue::Kind::kArray && bodies->children.size() == 2;
+    if (!two) table.ErrorAt(*bodies, "'bodies' must be an array of two names");
+    const std::vector<std::string> names =
+        two ? table.Strings("bodies") : std::vector<std::string>();
+    for (const std::string& name : names) {
+      const TomlValue& where = bodies->children[named];
+      margin.bodies[named++] = {name, where.line, where.column};
+    }
+  }
+  const auto clearance = table.RequiredNumber("clearance", NumberRule::kNotNegative);
+  table.Finish();
+  if (named < 2 || !clearance) return;
+  margin.clearance = *clearance * unit;
+  const std::string& a = margin.bodies[0].name;
+  const std::string& b = margin.bodies[1].name;
+  const auto same = [&](const PairMargin& other) {
+    const std::string& c = other.bodies[0].name;
+    const std::string& d = other.bodies[1].name;
+    return (a == c && b == d) || (a == d && b == c);
+  };
+  if (margin.clearance > kGreatestMargin) {
+    table.ErrorAt(*table.Get("clearance"), "a clearance of " + Short(margin.clearance) +
+                                               " mm is absurd: the greatest is " +
+                                               Short(kGreatestMargin) + " mm");
+  } else if (a == b) {
+    table.ErrorAt(table.value(), "'" + a + "' is no pair with itself");
+  } else if (std::any_of(check->margins.begin(), check->margins.end(), same)) {
+    table.ErrorAt(table.value(), "a second margin of '" + a + "' and '" + b + "'");
+  } else {
+    check->margins.push_back(std::move(margin));
+  }
+}
+
 void ReadCheck(double unit, TomlTable table, CheckSettings* check) {
   const auto length = [&](const char* key, double* target) {
     if (const auto value = table.Number(key, NumberRule::kNotNegative)) *target = *value * unit;
@@ -134,6 +171,7 @@ void ReadCheck(double unit, TomlTable table, CheckSettings* check) {
     const auto at = std::find(words.begin(), words.end(), *word) - words.begin();
     check->gouge = static_cast<GougeMode>(at);
   }
+  for (TomlTable& margin : table.Tables("margin")) ReadMargin(unit, std::move(margin), check);
   table.Finish();
 }
 

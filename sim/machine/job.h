@@ -2,6 +2,7 @@
 // A job: what stands on the machine and in the control's registers before the program starts.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,8 +44,19 @@ struct PlacedBody {
 
 enum class GougeMode { kError, kWarning, kOff };
 
+/// A clearance of one pair of bodies, or of a few pairs of a kind: see margins.h.
+struct PairMargin {
+  struct Body {
+    std::string name;
+    int line = 0, column = 0;
+  };
+  std::array<Body, 2> bodies;
+  double clearance = 0.0;  ///< mm.
+};
+
 struct CheckSettings {
   double clearance = 0.0;  ///< mm; below it, near-miss. 0: no near misses.
+  std::vector<PairMargin> margins;
   double part_tolerance = 0.1;
   double gouge_tolerance = 0.25;
   GougeMode gouge = GougeMode::kError;

@@ -97,6 +97,25 @@ const std::vector<RejectCase>& Cases() {
       {"m_code_of_text",
        {"m_code_of_text.toml:54:27: error: an element of 'm_codes_without_motion' must be a whole "
         "number from 0 to 9999"}},
+      {"margin_absurd",
+       {"margin_absurd.toml:50:13: error: a clearance of 1001 mm is absurd: the greatest is 1000 "
+        "mm"}},
+      {"margin_is_a_table",
+       {"margin_is_a_table.toml:48:1: error: 'margin' must be an array of tables "
+        "([[margin]]), not a table"}},
+      {"margin_key_misspelt",
+       {"margin_key_misspelt.toml:48:1: error: the key 'clearance' is missing",
+        "margin_key_misspelt.toml:50:1: error: unknown key 'clearence' (did you mean "
+        "'clearance'?)"}},
+      {"margin_negative",
+       {"margin_negative.toml:50:13: error: 'clearance' must not be negative, and is -5"}},
+      {"margin_of_a_body_with_itself",
+       {"margin_of_a_body_with_itself.toml:48:1: error: 'riser' is no pair with itself"}},
+      {"margin_of_three_bodies",
+       {"margin_of_three_bodies.toml:49:10: error: 'bodies' must be an array of two names"}},
+      {"margin_twice", {"margin_twice.toml:54:1: error: a second margin of 'riser' and 'holder'"}},
+      {"margin_without_bodies",
+       {"margin_without_bodies.toml:48:1: error: the key 'bodies' is missing"}},
       {"mesh_missing", {"mesh_missing.toml:38:8: error: mesh part.stl is missing: no such file"}},
       {"no_holder_and_too_short_for_the_assumed_one",
        {"no_holder_and_too_short_for_the_assumed_one.toml:12:1: error: T3: flutes (20 mm) and "
@@ -208,6 +227,11 @@ TEST(JobTest, ReadsEverySection) {
   EXPECT_EQ(job.check.part_tolerance, 0.15);
   EXPECT_EQ(job.check.gouge_tolerance, 0.3);
   EXPECT_EQ(job.check.gouge, GougeMode::kWarning);
+  ASSERT_EQ(job.check.margins.size(), 2u);
+  EXPECT_EQ(job.check.margins[0].bodies[0].name, "T3.holder");
+  EXPECT_EQ(job.check.margins[0].bodies[1].name, "riser");
+  EXPECT_EQ(job.check.margins[0].clearance, 5.0);
+  EXPECT_EQ(job.check.margins[1].clearance, 0.0);
   EXPECT_EQ(job.control.at("setting 9"), "inch");
   EXPECT_EQ(job.control.at("setting 15"), "off");
   EXPECT_EQ(job.control.at("setting 85"), "0.635");
@@ -254,6 +278,7 @@ TEST(JobTest, InchesScaleEveryLength) {
   EXPECT_NEAR(job.bodies.at(0).at.X_OG.translation().x(), 25.4, 1e-9);
   EXPECT_NEAR(job.check.clearance, 2.54, 1e-9);
   EXPECT_NEAR(job.check.part_tolerance, 0.127, 1e-9);
+  EXPECT_NEAR(job.check.margins.at(0).clearance, 5.08, 1e-9);
   EXPECT_EQ(job.control.at("setting 85"), "0.635");
 }
 

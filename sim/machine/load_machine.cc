@@ -8,6 +8,7 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/machine/load.h"
+#include "sim/machine/margins.h"
 #include "sim/machine/model_toml.h"
 #include "sim/machine/rotary_centre.h"
 #include "sim/machine/settings.h"
@@ -221,7 +222,9 @@ std::optional<Machine> LoadMachine(const std::string& urdf_path, Diagnostics* di
   if (!srdf_path.empty()) srdf = ReadSrdf(srdf_path, machine.tree, diagnostics);
   machine.disabled_pairs = std::move(srdf.disabled_pairs);
   AddPoses(srdf, &machine);
+  machine.margins = std::move(srdf.margins);
   machine.bodies = MakeBodies(*urdf, urdf_path, diagnostics);
+  CheckMargins(machine, srdf_path, diagnostics);
   return machine;
 }
 

@@ -97,6 +97,24 @@ const std::vector<RejectCase>& Cases() {
       {"complete.srdf", {}},
       {"honest_unread_element.srdf",
        {"model.srdf:2: warning: <collision_margins> in <robot> is not known: it is not read"}},
+      {"margin_absurd.srdf",
+       {"model.srdf:2: error: a clearance of 5 m is absurd: the greatest is 1 m (an SRDF is in "
+        "metres)"}},
+      {"margin_misspelt.srdf",
+       {"model.srdf:2: error: <ncsim:margn> in <robot> is not known (did you mean "
+        "'ncsim:margin'?)"}},
+      {"margin_negative.srdf", {"model.srdf:2: error: a clearance must not be negative"}},
+      {"margin_of_adjacent.srdf",
+       {"model.srdf:3: warning: the model says that 'base_link' and 'x_slide' need no check: this "
+        "margin judges nothing"}},
+      {"margin_of_frame.srdf",
+       {"model.srdf:2: warning: link 'workpiece_mount' has no shape: this margin judges nothing",
+        "model.srdf:3: warning: link 'y_slide' has no shape: this margin judges nothing"}},
+      {"margin_of_unknown_link.srdf",
+       {"model.srdf:2: error: there is no link 'z_hed' in the URDF (did you mean 'z_head'?)"}},
+      {"margin_twice.srdf", {"model.srdf:3: error: a second margin of 'b_trunnion' and 'z_head'"}},
+      {"margin_without_clearance.srdf",
+       {"model.srdf:2: error: <ncsim:margin clearance> is missing"}},
       {"misspelt_element.srdf",
        {"model.srdf:2: error: <disable_collision> in <robot> is not known (did you mean "
         "'disable_collisions'?)"}},
@@ -197,6 +215,24 @@ TEST_F(CompleteMachineTest, ReadsAxesInMmRadAndSeconds) {
   EXPECT_FALSE(machine.nominal_shapes);
 }
 
+TEST_F(CompleteMachineTest, ReadsMarginsOfLinksInMm) {
+  const Machine machine = Load();
+  ASSERT_EQ(machine.margins.size(), 1u);
+  EXPECT_EQ(machine.margins[0].link_a, machine.tree.FindLink("b_trunnion"));
+  EXPECT_EQ(machine.margins[0].link_b, machine.tree.FindLink("z_head"));
+  EXPECT_NEAR(machine.margins[0].clearance, 5.0, 1e-12);
+}
+
+// The gauge line stands at (X, Y, Z + 500) in M; the spindle is on the X, Y, Z side of all joints.
+TEST_F(CompleteMachineTest, CoordinatesAreWhatTheControlShowsWithTheGaugeLineThere) {
+  const Machine machine = Load();
+  kinematics::JointVector q = machine.Home();
+  q[machine.FindAxis('X')->joint] = -200.0;
+  q[machine.FindAxis('B')->joint] = 0.3;
+  const Eigen::Vector3d at = machine.Coordinates({10.0, -20.0, 450.0}, q);
+  EXPECT_NEAR((at - Eigen::Vector3d(10.0, -20.0, -50.0)).norm(), 0.0, 1e-9);
+}
+
 TEST_F(CompleteMachineTest, ReadsTheControl) {
   const ControlData control = Load().control;
   EXPECT_EQ(control.dialect, "haas-ngc");
@@ -259,7 +295,8 @@ TEST_F(CompleteMachineTest, InspectPrintsItInWords) {
         "  X  -600 to 100 mm, rapid 24 m/min, acceleration 3000 mm/s2, home 0 mm\n",
         "  C  endless, rapid 51.5662 deg/s, acceleration 500 deg/s2, home 0 deg\n",
         "  base_link: 12 triangles, 1000 x 1000 x 100, closed\n", "  y_slide: a frame, no shape\n",
-        "  x_slide, z_head: User\n", "  tool_change: X-500 Y0 Z50 B5.73 C0\n",
+        "  x_slide, z_head: User\n", "margins of pairs\n  b_trunnion, z_head: 5 mm\n",
+        "  tool_change: X-500 Y0 Z50 B5.73 C0\n",
         "  rotary centre (gauge line at the pivot): X Y Z -300 -250 -400\n",
         "  tool change: X-500 Y-100 Z0, order Z X Y, measured\n", "lint: nothing found\n"}) {
     EXPECT_THAT(text, ::testing::HasSubstr(line));

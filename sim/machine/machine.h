@@ -68,6 +68,17 @@ struct LinkPair {
   std::string reason;  ///< Adjacent, User, Always.
 };
 
+/// A margin of a pair above this, mm, is a mistaken unit.
+inline constexpr double kGreatestMargin = 1000.0;
+
+/// Two links that are to keep a clearance of their own.
+struct LinkMargin {
+  int link_a = 0;  ///< The lesser index.
+  int link_b = 0;
+  double clearance = 0.0;  ///< mm.
+  int line = 0;            ///< In the SRDF.
+};
+
 /// Nominal shapes that come closer than this to anything, mm, are an assumption that places metal.
 inline constexpr double kNominalMargin = 10.0;
 
@@ -82,13 +93,19 @@ struct Machine {
   std::vector<Axis> axes;  ///< In the order X Y Z A B C.
   std::vector<LinkBody> bodies;
   std::vector<LinkPair> disabled_pairs;
+  std::vector<LinkMargin> margins;
   std::map<std::string, kinematics::JointVector> named_poses;
   ControlData control;
   bool nominal_shapes =
       false;  ///< The model does not call its shapes measured (TOML: shapes = "measured").
 
   const Axis* FindAxis(char letter) const;
+  /// The model declares that the two links need no check.
+  bool Disabled(int link_a, int link_b) const;
   kinematics::JointVector Home() const;
+  /// What the control would show as X, Y, Z (mm) if the gauge line stood at a point of frame M,
+  /// with the rotary axes as they are in q.
+  Eigen::Vector3d Coordinates(const Eigen::Vector3d& p_M, const kinematics::JointVector& q) const;
   /// NC letters and values (mm, deg) at q.
   AxisReadout Readout(const kinematics::JointVector& q) const;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "sim/base/file.h"
 #include "sim/base/text.h"
@@ -14,6 +15,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+constexpr const char* kMargin = "ncsim:margin";
 constexpr std::uint64_t kMaxSrdfBytes = std::uint64_t{1} << 24;
 
 /// The link's index, or -1 (reported).
@@ -30,19 +32,29 @@ int FindLink(const xml::Reader& reader, const XMLElement& element, const char* a
   return link;
 }
 
-void ReadPair(const xml::Reader& reader, const XMLElement& element,
-              const kinematics::KinematicTree& tree, Srdf* srdf) {
+std::string PairName(const std::pair<int, int>& links, const kinematics::KinematicTree& tree) {
+  return "'" + tree.links()[static_cast<std::size_t>(links.first)].name + "' and '" +
+         tree.links()[static_cast<std::size_t>(links.second)].name + "'";
+}
+
+/// link1 and link2, the lesser index first; nullopt (reported) where they are no pair.
+std::optional<std::pair<int, int>> FindLinks(const xml::Reader& reader, const XMLElement& element,
+                                             const kinematics::KinematicTree& tree) {
   const int a = FindLink(reader, element, "link1", tree);
   const int b = FindLink(reader, element, "link2", tree);
-  if (a < 0 || b < 0) return;
-  if (a == b) {
-    reader.Error(element, "a link is no pair with itself");
-    return;
-  }
+  if (a < 0 || b < 0) return std::nullopt;
+  if (a != b) return std::minmax({a, b});
+  reader.Error(element, "a link is no pair with itself");
+  return std::nullopt;
+}
+
+void ReadPair(const xml::Reader& reader, const XMLElement& element,
+              const kinematics::KinematicTree& tree, Srdf* srdf) {
+  const auto links = FindLinks(reader, element, tree);
+  if (!links) return;
   const char* stated = element.Attribute("reason");
   const std::string reason = stated == nullptr ? "" : stated;
-  const std::string pair = "'" + tree.links()[static_cast<std::size_t>(a)].name + "' and '" +
-                           tree.links()[static_cast<std::size_t>(b)].name + "'";
+  const std::string pair = PairName(*links, tree);
   if (reason == "Never" || reason == "Default") {
     reader.Warning(element, "reason " + reason + " comes from sampling: " + pair + " stay checked");
     return;
@@ -54,8 +66,29 @@ void ReadPair(const xml::Reader& reader, const XMLElement& element,
                               DidYouMean(reason, {"Adjacent", "User", "Always"}));
     return;
   }
-  srdf->disabled_pairs.push_back(
-      {std::min(a, b), std::max(a, b), reason.empty() ? "User" : reason});
+  srdf->disabled_pairs.push_back({links->first, links->second, reason.empty() ? "User" : reason});
+}
+
+void ReadMargin(const xml::Reader& reader, const XMLElement& element,
+                const kinematics::KinematicTree& tree, Srdf* srdf) {
+  const auto links = FindLinks(reader, element, tree);
+  const auto value = reader.Numbers(element, "clearance", 1, true);
+  if (!links || !value) return;
+  const double clearance = value->front() * kMmPerMetre;
+  const bool twice =
+      std::any_of(srdf->margins.begin(), srdf->margins.end(), [&](const LinkMargin& other) {
+        return other.link_a == links->first && other.link_b == links->second;
+      });
+  if (clearance < 0.0) {
+    reader.Error(element, "a clearance must not be negative");
+  } else if (clearance > kGreatestMargin) {
+    reader.Error(element, "a clearance of " + Short(value->front()) +
+                              " m is absurd: the greatest is 1 m (an SRDF is in metres)");
+  } else if (twice) {
+    reader.Error(element, "a second margin of " + PairName(*links, tree));
+  } else {
+    srdf->margins.push_back({links->first, links->second, clearance, element.GetLineNum()});
+  }
 }
 
 void ReadPose(const xml::Reader& reader, const XMLElement& element,
@@ -110,10 +143,13 @@ Srdf ReadSrdf(const std::string& path, const kinematics::KinematicTree& tree,
   const XMLElement* robot = reader.Parse(*text);
   if (robot == nullptr) return srdf;
   reader.CheckChildren(*robot, {"disable_collisions", "group_state", "group", "virtual_joint",
-                                "end_effector", "passive_joint"});
+                                "end_effector", "passive_joint", kMargin});
   for (const auto* e = robot->FirstChildElement("disable_collisions"); e;
        e = e->NextSiblingElement("disable_collisions")) {
     ReadPair(reader, *e, tree, &srdf);
+  }
+  for (const auto* e = robot->FirstChildElement(kMargin); e; e = e->NextSiblingElement(kMargin)) {
+    ReadMargin(reader, *e, tree, &srdf);
   }
   for (const auto* e = robot->FirstChildElement("group_state"); e;
        e = e->NextSiblingElement("group_state")) {

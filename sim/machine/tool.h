@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ncsim::machine {
@@ -51,5 +52,8 @@ struct ToolTable {
   std::vector<Tool> tools;  ///< Ascending numbers.
   const Tool* Find(int number) const;
 };
+
+/// What reports call the flutes, shank or holder (`part`) of a tool: "T3.holder".
+std::string ToolBodyName(int number, std::string_view part);
 
 }  // namespace ncsim::machine

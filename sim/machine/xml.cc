@@ -105,7 +105,7 @@ void Reader::CheckChildren(const tinyxml2::XMLElement& element,
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     const std::string name = child->Name();
-    const bool extension = name.find(':') != std::string::npos;
+    const bool extension = name.find(':') != std::string::npos && !name.starts_with("ncsim:");
     if (extension || std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string message = "<" + name + "> in <" + element.Name() + "> is not known";
     const std::string nearest = DidYouMean(name, known);

@@ -39,7 +39,7 @@ class Reader {
                                              const char* attribute, std::size_t count,
                                              bool required) const;
   /// Warns of every child that is not in `known`; an error where it looks like one of them
-  /// misspelt.
+  /// misspelt. Elements of other programs (with a prefix that is not ncsim) are theirs.
   void CheckChildren(const tinyxml2::XMLElement& element,
                      const std::vector<std::string>& known) const;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,13 @@ Json RoundedDown(double value_mm) {
   return std::floor(value_mm * 100.0 + 1e-9) / 100.0 + 0.0;
 }
 
+template <typename Items, typename Convert>
+Json Array(const Items& items, const Convert& convert) {
+  Json array = Json::array();
+  for (const auto& item : items) array.push_back(convert(item));
+  return array;
+}
+
 Json ToJson(const Finding& finding, const SourceFiles& files) {
   Json json;
   json["rule"] = Info(finding.rule).id;
@@ -39,6 +47,11 @@ Json ToJson(const Finding& finding, const SourceFiles& files) {
     Json& axes = json["axes"] = Json::object();
     for (const auto& [letter, value] : finding.axes)
       axes[std::string(1, letter)] = Number(value, 4);
+  }
+  if (!finding.points.empty()) {
+    json["points_mm"] = Array(finding.points, [](const std::array<double, 3>& p) {
+      return Json{Number(p[0], 3), Number(p[1], 3), Number(p[2], 3)};
+    });
   }
   if (finding.time_s) json["time_s"] = Number(*finding.time_s, 3);
   return json;
@@ -64,13 +77,6 @@ Json ToJson(const Assumption& assumption) {
           {"text", assumption.text},
           {"places_metal", assumption.places_metal},
           {"accepted", assumption.accepted}};
-}
-
-template <typename Items, typename Convert>
-Json Array(const Items& items, const Convert& convert) {
-  Json array = Json::array();
-  for (const auto& item : items) array.push_back(convert(item));
-  return array;
 }
 
 }  // namespace

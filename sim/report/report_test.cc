@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -134,6 +135,18 @@ TEST_F(ReportTest, JsonOfAContact) {
       R"("accepted": false } ], "not_checked": [ "stock" ], "cuts": [], "job": null, )"
       R"("motion_time_model": ")" +
           std::string(MotionTimeModel()) + R"("})");
+}
+
+TEST_F(ReportTest, ThePointsOfAContact) {
+  Finding finding = HolderHitsVise();
+  finding.points = {{-57.31, 4.2, -372.1184}, {-57.31, -1e-9, -372.12}};
+  result_.findings = {finding};
+  EXPECT_THAT(Text(),
+              HasSubstr("  N10 X1. Y2.\n  ^\n"
+                        "  contact point, machine coordinates: X-57.310 Y0.000 Z-372.120\n"));
+  std::string json = Json();
+  json.erase(std::remove_if(json.begin(), json.end(), [](char c) { return c <= ' '; }), json.end());
+  EXPECT_THAT(json, HasSubstr(R"("points_mm":[[-57.31,4.2,-372.118],[-57.31,0.0,-372.12]],)"));
 }
 
 TEST_F(ReportTest, JsonNeverRoundsAProvenClearanceUp) {

@@ -29,6 +29,10 @@ void WriteFinding(const Finding& finding, const SourceFiles& files, const LineTe
   if (finding.where.line <= 0) return;
   const std::string_view line = line_text(finding.where.file, finding.where.line);
   if (!line.empty()) out << LineWithCaret(line, finding.where.column);
+  if (finding.points.empty()) return;
+  const auto& [x, y, z] = finding.points.back();
+  out << "  contact point, machine coordinates: "
+      << ToString(AxisReadout{{'X', x}, {'Y', y}, {'Z', z}}) << "\n";
 }
 
 std::string PairName(const collision::PairClearance& clearance) {
