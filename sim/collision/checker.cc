@@ -91,7 +91,7 @@ WatchedPairs CollisionChecker::State::Watch(std::vector<Pair> pairs) {
                           pair.tool ? AsMarginBody(*pair.tool) : AsMarginBody(*pair.mesh_a));
     if (machine->nominal_shapes && HasMachineBody(pair)) {
       // The verdict turns on the margin; what is proven elsewhere is a quarter below what is seen.
-      check.exact_below = 1.5 * machine::kNominalMargin;
+      check.exact_below = std::max(check.exact_below, 1.5 * machine::kNominalMargin);
     }
     watched.push_back(std::make_unique<WatchedPair>(*machine, check, std::move(pair), blank));
   }

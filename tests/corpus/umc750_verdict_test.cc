@@ -4,9 +4,6 @@
 // case.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -14,113 +11,28 @@
 #include <vector>
 
 #include "sim/app/app.h"
+#include "tests/corpus/umc750_job.h"
 
 namespace {
 
-namespace fs = std::filesystem;
+using namespace ncsim;
 using nlohmann::json;
 
-struct Scene {
-  std::string part_xyz = "[-50.8, -50.8, 150.0]";  // of G54, on the platter's centre
-  double riser_diameter = 200.0;
-  double riser_height = 149.9;
-  std::string holder_t3 = "\"CAT40-ER32-100\"";
-  std::string extra;  // more lines of the job
-  std::string body;   // [part] or [stock]
-};
-
-class Umc750Verdict : public ::testing::Test {
+class Umc750Verdict : public ::testing::Test, protected corpus::Umc750Job {
  protected:
   void SetUp() override {
-    const char* corpus = std::getenv("NCSIM_CORPUS");
-    if (!corpus) GTEST_SKIP() << "NCSIM_CORPUS is not set";
-    source_ = fs::path(corpus) / "haas/umc750-ubc";
-    folder_ = fs::temp_directory_path() /
-              ("ncsim_verdict_" +
-               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    fs::copy(fs::path(NCSIM_SOURCE_DIR) / "models/haas_umc750", folder_ / "model",
-             fs::copy_options::recursive);
-    fs::copy_file(source_ / "NCcodeForHAAS-UMC750Machine/FinalToolPath.stripped.nc", Program());
-    fs::permissions(Program(), fs::perms::owner_write, fs::perm_options::add);
-    scene_.body = PartBody();
+    if (!Prepare(::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+      GTEST_SKIP() << "NCSIM_CORPUS is not set";
+    }
   }
-  void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-
-  fs::path Program() const { return folder_ / "part.nc"; }
-
-  std::string PartBody(const std::string& at = "{ on = \"G54\" }") const {
-    return "[part]\nmesh = \"" + (source_ / "FinalWorkpieceForFIVEAxisMachining.stl").string() +
-           "\"\nunit = \"inch\"\nat = " + at + "\n";
-  }
-  static std::string StockBody(
-      const std::string& at = "{ on = \"G54\", xyz = [50.8, 50.8, 0.0] }") {
-    return "[stock]\nbox = [101.6, 101.6, 101.6]\nat = " + at + "\n";
-  }
-
-  void Replace(const fs::path& path, const std::string& from, const std::string& to) {
-    std::ifstream in(path, std::ios::binary);
-    std::stringstream buffer;
-    buffer << in.rdbuf();
-    std::string text = buffer.str();
-    const std::size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from << " is not in " << path;
-    text.replace(at, from.size(), to);
-    fs::permissions(path, fs::perms::owner_write, fs::perm_options::add);
-    std::ofstream(path, std::ios::binary) << text;
-  }
-
-  /// Line `line` (from 1) becomes empty, so that all others keep their numbers.
-  void Blank(int line) {
-    std::ifstream in(Program());
-    std::string text;
-    int number = 0;
-    for (std::string row; std::getline(in, row);) text += (++number == line ? "" : row) + "\n";
-    std::ofstream(Program()) << text;
-  }
-
-  void WriteJob() {
-    std::ofstream job(folder_ / "part.nc.job.toml");
-    const auto tool = [&](int number, const char* name, const char* cutter, double shank,
-                          const std::string& holder) {
-      job << "[[tool]]\nnumber = " << number << "\nname = \"" << name << "\"\nlength = 180.0\n"
-          << "cutter = " << cutter << "\nshank = [ { lower = " << shank << ", upper = " << shank
-          << ", height = 30.0 } ]\nholder = " << holder << "\n";
-    };
-    job << "schema = 1\nunits = \"mm\"\n[offsets]\nG54 = { on = \"workpiece_mount\", xyz = "
-        << scene_.part_xyz << " }\n";
-    tool(1, "MILL", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }", 19.05,
-         "\"CAT40-ER32-100\"");
-    tool(2, "MILL_MULTI_AXIS", "{ type = \"end\", diameter = 19.05, flute_length = 50.0 }", 19.05,
-         "\"CAT40-ER32-100\"");
-    tool(3, "BALL_MILL",
-         "{ type = \"ball\", diameter = 5.9944, corner_radius = 2.9972, flute_length = 30.0 }",
-         5.9944, scene_.holder_t3);
-    job << "[[fixture]]\nname = \"riser\"\ncylinder = { diameter = " << scene_.riser_diameter
-        << ", height = " << scene_.riser_height << " }\nat = { on = \"workpiece_mount\" }\n"
-        << scene_.body << "[check]\npart_tolerance = 0.15\n"
-        << scene_.extra;
-  }
-
-  /// Keeps the first `lines` lines, for a fault that shows early: a shorter run, the same lines.
-  void Keep(int lines) {
-    std::ifstream in(Program());
-    std::string text;
-    int number = 0;
-    for (std::string row; ++number <= lines && std::getline(in, row);) text += row + "\n";
-    std::ofstream(Program()) << text << "M30\n%\n";
-  }
+  void TearDown() override { Remove(); }
 
   /// Runs `ncsim check`; the JSON report.
   json Check(int expected_exit, const std::vector<std::string>& more = {}) {
     WriteJob();
     std::ostringstream out, err;
-    std::vector<std::string> args = {"check",    Program().string(),
-                                     "--model",  (folder_ / "model/umc750.urdf").string(),
-                                     "--format", "json"};
+    std::vector<std::string> args = {"check",          Program().string(), "--model",
+                                     Model().string(), "--format",         "json"};
     args.insert(args.end(), more.begin(), more.end());
     const int code = ncsim::app::Run(std::move(args), out, err);
     EXPECT_EQ(code, expected_exit) << err.str() << out.str().substr(0, 4000);
@@ -149,9 +61,6 @@ class Umc750Verdict : public ::testing::Test {
     }
     return text;
   }
-
-  Scene scene_;
-  fs::path folder_, source_;
 };
 
 TEST_F(Umc750Verdict, AsItIsItPasses) {
@@ -258,7 +167,7 @@ TEST_F(Umc750Verdict, OffsetTooLowGougesThePart) {
 
 // Line 12861 is the first that turns B beyond 90 (B93.722).
 TEST_F(Umc750Verdict, TiltBeyondItsLimit) {
-  Replace(folder_ / "model/umc750.urdf", "2.0943951023931953", "1.5707963267948966");
+  Replace(Model(), "2.0943951023931953", "1.5707963267948966");
   const json report = Check(1, {"--interpret-only"});
   EXPECT_TRUE(Has(report, "travel-limit", 12861)) << Errors(report);
 }

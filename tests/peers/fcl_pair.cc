@@ -4,6 +4,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
+#include <fcl/narrowphase/distance.h>
 
 #include <vector>
 
@@ -32,6 +33,13 @@ bool Collides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA)
   fcl::CollisionResultd result;
   fcl::collide(&a.model_->bvh, X_BA, &b.model_->bvh, fcl::Transform3d::Identity(), request, result);
   return result.isCollision();
+}
+
+double Distance(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA) {
+  const fcl::DistanceRequestd request;
+  fcl::DistanceResultd result;
+  return fcl::distance(&a.model_->bvh, X_BA, &b.model_->bvh, fcl::Transform3d::Identity(), request,
+                       result);
 }
 
 bool ContinuousCollides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA0,
