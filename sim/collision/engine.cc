@@ -115,7 +115,7 @@ class MeshEngine final : public PairEngine {
     return !hit.has_value() || *hit || Contained(X_BA);
   }
   double Budget(double need) const override { return std::max(20.0, need); }
-  double thrift() const override { return 0.9; }
+  double thrift() const override { return 0.6; }
   bool has_depth() const override { return false; }
   double floor() const override { return 0.0; }
 

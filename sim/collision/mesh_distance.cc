@@ -29,12 +29,6 @@ double SquaredGap(const Vector3d& between, const Vector3d& halves) {
   return (between.cwiseAbs() - halves).cwiseMax(0.0).squaredNorm();
 }
 
-// How far apart the shadows of A (up the line) and B are on a line; negative where they overlap.
-double ShadowGap(const Vector3d& direction, const Triangle& a, const Triangle& b) {
-  const double lower = std::min({direction.dot(a[0]), direction.dot(a[1]), direction.dot(a[2])});
-  return lower - std::max({direction.dot(b[0]), direction.dot(b[1]), direction.dot(b[2])});
-}
-
 }  // namespace
 
 MeshDistance::MeshDistance(const TriangleTree& a, const TriangleTree& b)
@@ -66,6 +60,7 @@ void MeshDistance::Aim() {
   aim_ = std::max(0.0, std::min({aim_, apart - goal_.gap, relative}));
 }
 
+// On each of the boxes' axes, as one vector for each box; and on the line of their centres.
 MeshDistance::Cell MeshDistance::Bound(int a, int b, double at_least) {
   ++evaluations_;
   const Node& box_a = a_->node(a);
@@ -74,7 +69,11 @@ MeshDistance::Cell MeshDistance::Bound(int a, int b, double at_least) {
   const Vector3d between_A = R_BA_.transpose() * between_B;
   const double gap_B = SquaredGap(between_B, turned_ * box_a.half + box_b.half);
   const double gap_A = SquaredGap(between_A, turned_.transpose() * box_b.half + box_a.half);
-  return {std::max({gap_A, gap_B, at_least}), between_B.squaredNorm(), a, b};
+  const double centres = between_B.squaredNorm();
+  const double along =
+      centres - between_B.cwiseAbs().dot(box_b.half) - between_A.cwiseAbs().dot(box_a.half);
+  const double gap_centres = along > 0.0 ? along * along / centres : 0.0;
+  return {std::max({gap_A, gap_B, gap_centres, at_least}), centres, a, b};
 }
 
 // False when what lies below the cell needs no look.
@@ -107,9 +106,11 @@ void MeshDistance::Meet(const Cell& cell) {
     const Triangle placed = Placed(i);
     for (int j = b.first; j < b.first + b.count; ++j) {
       ++evaluations_;
-      double lower = ShadowGap(direction_, placed, b_->triangle(j));
-      if (lower < aim_) lower = Refine(i, j, placed);
-      least_ = std::min(least_, std::max(lower, boxes));
+      const Triangle& other = b_->triangle(j);
+      double lower = std::max(boxes, ShadowGap(direction_, placed, other));
+      if (lower < aim_) lower = std::max(lower, SearchedGap(placed, other, aim_));
+      if (lower < aim_) lower = std::max(lower, Refine(i, j, placed));
+      least_ = std::min(least_, lower);
     }
   }
 }

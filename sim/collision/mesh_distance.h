@@ -11,11 +11,11 @@
 
 namespace ncsim::collision {
 
-/// Bounds on the distance of two meshes' SURFACES. Below a box pair nothing is nearer than the
-/// boxes, each seen along the other's axes. Below a triangle pair nothing is nearer than the gap
-/// between their shadows on ANY line: the line through the points that were found nearest gives all
-/// of the distance, and a wrong one only gives less. So no bound hangs on how those points were
-/// found.
+/// Bounds on the distance of two meshes' SURFACES. What lies in two boxes is no nearer than the
+/// gaps between the boxes' shadows on lines: on the three axes of either, which add as a vector.
+/// Two triangles are no nearer than the gap between their shadows on ANY line: the one through the
+/// points that were found nearest gives all of the distance, and a wrong one only gives less. So no
+/// bound hangs on how those points were found.
 class MeshDistance {
  public:
   /// Both outlive this.
@@ -52,7 +52,7 @@ class MeshDistance {
   // Of the query at hand:
   Eigen::Matrix3d R_BA_, turned_;  // turned_: how far R_BA spreads a box along each axis
   Eigen::Vector3d p_BA_;
-  Eigen::Vector3d direction_;  // unit, from the witness on B to that on A
+  Eigen::Vector3d direction_ = Eigen::Vector3d::UnitX();  // from the witness on B to that on A
   DistanceGoal goal_;
   double pad_ = 0.0;    // covers rounding, mm
   double upper_ = 0.0;  // of the witness

@@ -62,6 +62,14 @@ NearPoints NearestOnSegments(const Vector3d& p1, const Vector3d& q1, const Vecto
   return {p1 + s * d1, p2 + t * d2};
 }
 
+const Vector3d& Farthest(const Triangle& t, const Vector3d& direction) {
+  const double d0 = direction.dot(t[0]);
+  const double d1 = direction.dot(t[1]);
+  const double d2 = direction.dot(t[2]);
+  if (d0 >= d1 && d0 >= d2) return t[0];
+  return d1 >= d2 ? t[1] : t[2];
+}
+
 }  // namespace
 
 NearPoints NearestPoints(const Triangle& a, const Triangle& b) {
@@ -80,6 +88,29 @@ NearPoints NearestPoints(const Triangle& a, const Triangle& b) {
       const NearPoints near = NearestOnSegments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
       offer(near.a, near.b);
     }
+  }
+  return best;
+}
+
+double ShadowGap(const Vector3d& direction, const Triangle& a, const Triangle& b) {
+  const double lower = std::min({direction.dot(a[0]), direction.dot(a[1]), direction.dot(a[2])});
+  return lower - std::max({direction.dot(b[0]), direction.dot(b[1]), direction.dot(b[2])});
+}
+
+// Frank and Wolfe's method for the least vector from b to a: `way` is one, and the pair of corners
+// that lie least far along it shows the way to a shorter one.
+double SearchedGap(const Triangle& a, const Triangle& b, double enough) {
+  constexpr int kLines = 4;
+  Vector3d way = (a[0] + a[1] + a[2] - b[0] - b[1] - b[2]) / 3.0;
+  double best = 0.0;
+  for (int i = 0; i < kLines; ++i) {
+    const double length = way.norm();
+    if (!(length > 0.0) || length < enough) break;
+    const Vector3d corners = Farthest(a, -way) - Farthest(b, way);
+    best = std::max(best, way.dot(corners) / length);
+    if (best >= enough) break;
+    const Vector3d toward = corners - way;
+    way += std::clamp(-way.dot(toward) / toward.squaredNorm(), 0.0, 1.0) * toward;
   }
   return best;
 }
