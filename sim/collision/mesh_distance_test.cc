@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "sim/collision/engine.h"
 #include "sim/collision/fcl_backend.h"
 #include "sim/collision/test_shapes.h"
 
@@ -198,7 +200,8 @@ TEST(MeshDistanceTest, LatticeOfBoxes) {
   const TriangleTree tree_b(BoxMesh(-half_b, half_b));
   MeshDistance kernel(tree_a, tree_b);
   for (int place = 0; place < 33 * 33 * 33; ++place) {
-    const Vector3d p(place % 33 - 16, place / 33 % 33 - 16, place / 1089 - 16);
+    const Vector3d p = Eigen::Vector3i(place % 33, place / 33 % 33, place / 1089).cast<double>() -
+                       Vector3d::Constant(16.0);
     for (int turn = 0; turn < 4; ++turn) {
       Isometry3d X = Isometry3d::Identity();
       X.linear() << (turn == 0 ? 1 : 0), (turn == 1 ? -1 : 0), 0, (turn == 1 ? 1 : 0),
@@ -317,6 +320,37 @@ TEST(MeshDistanceTest, BoxesApart) {
   EXPECT_FALSE(kernel.BoxesApart(X));
   X.translation() = Vector3d(0, 11.1, 0);
   EXPECT_TRUE(kernel.BoxesApart(X));
+}
+
+std::shared_ptr<const MeshBody> Body(machine::TriangleMesh mesh) {
+  machine::SceneBody body;
+  body.mesh = std::move(mesh);
+  return std::make_shared<const MeshBody>(body);
+}
+
+TEST(MeshEngineTest, ClearMeetingInsideAndUnknown) {
+  const auto engine =
+      MakeEngine(Body(BoxMesh({-1, -1, -1}, {1, 1, 1})), Body(BoxMesh({-9, -9, -9}, {9, 9, 9})));
+  Isometry3d X = Isometry3d::Identity();
+  EXPECT_TRUE(engine->Contained(X));
+  EXPECT_TRUE(engine->Confirms(X));
+  EXPECT_NEAR(engine->Clearance(X, {})->lower, 8.0, 0.002);  // of the surfaces
+  EXPECT_EQ(engine->Solid(X, {})->upper, 0.0);
+  // Through a face, and face on face.
+  for (const double at : {9.3, 10.0}) {
+    X.translation() = Vector3d(at, 0.2, 0.1);
+    EXPECT_LE(engine->Clearance(X, {})->lower, 0.0);
+    EXPECT_LE(engine->Clearance(X, {})->upper, 0.0);
+    EXPECT_TRUE(engine->Confirms(X));
+  }
+  X.translation() = Vector3d(10.5, 0, 0);
+  EXPECT_NEAR(engine->Clearance(X, {})->lower, 0.5, 0.002);
+  EXPECT_FALSE(engine->Contained(X));
+  EXPECT_FALSE(engine->Confirms(X));
+  X.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(engine->Clearance(X, {}).has_value());
+  const auto empty = MakeEngine(Body({}), Body(BoxMesh({-9, -9, -9}, {9, 9, 9})));
+  EXPECT_FALSE(empty->Clearance(Isometry3d::Identity(), {}).has_value());
 }
 
 }  // namespace
