@@ -64,9 +64,7 @@ MeshBody::MeshBody(const machine::SceneBody& body)
       defect(Defect(body)),
       extent(ExtentOf(body)),
       tree(Usable(body)),
-      fcl(Usable(body)) {
-  if (defect.empty() && !fcl.ok()) defect = "the mesh cannot be made a collision model";
-}
+      fcl(Usable(body)) {}
 
 const machine::Profile& ProfileOf(const machine::Tool& tool, machine::BodyKind kind) {
   if (kind == machine::BodyKind::kShank) return tool.shank;

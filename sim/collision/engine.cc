@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/collision/mesh_distance.h"
+
 namespace ncsim::collision {
 
 namespace {
@@ -81,18 +83,21 @@ class SweptEngine final : public PairEngine {
 class MeshEngine final : public PairEngine {
  public:
   MeshEngine(std::shared_ptr<const MeshBody> a, std::shared_ptr<const MeshBody> b)
-      : a_(std::move(a)), b_(std::move(b)) {}
+      : a_(std::move(a)), b_(std::move(b)), kernel_(a_->tree, b_->tree) {}
 
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
-    const double cut = std::max(goal.stop_above, 1.0);
-    const std::optional<double> distance = Distance(a_->fcl, b_->fcl, X_BA, cut);
+    if (!a_->fcl.ok() || !b_->fcl.ok() || !X_BA.matrix().allFinite()) return std::nullopt;
+    Interval result = kernel_.Surface(X_BA, goal);
+    if (result.lower > 0.0) return result;
+    // The surfaces meet, or nearly so: FCL says which.
+    const std::optional<double> distance = Distance(a_->fcl, b_->fcl, X_BA, result.upper);
     if (!distance.has_value()) return std::nullopt;
-    Interval result;
     result.lower = *distance - kFclDistanceError;
-    if (*distance < cut) result.upper = *distance;
+    result.upper = std::min(result.upper, *distance);
     return result;
   }
   bool Contained(const Isometry3d& X_BA) override {
+    if (kernel_.BoxesApart(X_BA)) return false;
     const Isometry3d X_AB = X_BA.inverse();
     const auto inside = [](const MeshBody& inner, const MeshBody& outer, const Isometry3d& X) {
       return std::any_of(inner.tree.representatives().begin(), inner.tree.representatives().end(),
@@ -109,16 +114,15 @@ class MeshEngine final : public PairEngine {
     const std::optional<bool> hit = Collide(a_->fcl, b_->fcl, X_BA);
     return !hit.has_value() || *hit || Contained(X_BA);
   }
-  // FCL is fast where the cut lies well below the distance, and ten to a hundred times slower where
-  // it does not.
-  double Budget(double need) const override { return std::max(1.0, 0.15 * need); }
-  double thrift() const override { return 0.55; }
+  double Budget(double need) const override { return std::max(20.0, need); }
+  double thrift() const override { return 0.6; }
   bool has_depth() const override { return false; }
   double floor() const override { return 0.0; }
 
  private:
   std::shared_ptr<const MeshBody> a_;
   std::shared_ptr<const MeshBody> b_;
+  MeshDistance kernel_;
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const ToolBody> a,
                                        std::shared_ptr<const MeshBody> b);
 /// A swept body and a mesh; only clearances are asked of it.
 std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const SweptPair> pair);
-/// Mesh against mesh, by FCL. No depth.
+/// Mesh against mesh; FCL has the word on contact. No depth.
 std::unique_ptr<PairEngine> MakeEngine(std::shared_ptr<const MeshBody> a,
                                        std::shared_ptr<const MeshBody> b);
 

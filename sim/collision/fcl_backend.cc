@@ -8,33 +8,57 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace ncsim::collision {
 
-struct FclMesh::Model {
-  fcl::BVHModel<fcl::OBBRSSd> bvh;
-};
+using Bvh = fcl::BVHModel<fcl::OBBRSSd>;
 
-FclMesh::FclMesh(const machine::TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return;
-  auto model = std::make_unique<Model>();
+namespace {
+
+std::unique_ptr<Bvh> Build(const machine::TriangleMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
     triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
                            static_cast<std::size_t>(t[2]));
   }
+  auto bvh = std::make_unique<Bvh>();
   try {
-    bool ok = model->bvh.beginModel() == fcl::BVH_OK;
-    ok = ok && model->bvh.addSubModel(mesh.vertices, triangles) == fcl::BVH_OK;
-    ok = ok && model->bvh.endModel() == fcl::BVH_OK;
-    if (!ok) return;
-    model->bvh.computeLocalAABB();
+    bool ok = bvh->beginModel() == fcl::BVH_OK;
+    ok = ok && bvh->addSubModel(mesh.vertices, triangles) == fcl::BVH_OK;
+    ok = ok && bvh->endModel() == fcl::BVH_OK;
+    if (!ok) return nullptr;
+    bvh->computeLocalAABB();
   } catch (const std::exception&) {
-    return;
+    return nullptr;
   }
-  model_ = std::move(model);
+  return bvh;
+}
+
+}  // namespace
+
+struct FclMesh::Model {
+  explicit Model(machine::TriangleMesh triangles) : mesh(std::move(triangles)) {}
+
+  // Null: FCL would not.
+  const Bvh* bvh() {
+    std::call_once(once, [this] {
+      tree = Build(mesh);
+      mesh = {};
+    });
+    return tree.get();
+  }
+
+  machine::TriangleMesh mesh;  // until there is a tree
+  std::unique_ptr<Bvh> tree;
+  std::once_flag once;
+};
+
+FclMesh::FclMesh(machine::TriangleMesh mesh) {
+  if (!mesh.triangles.empty()) model_ = std::make_unique<Model>(std::move(mesh));
 }
 
 FclMesh::~FclMesh() = default;
@@ -44,12 +68,14 @@ FclMesh& FclMesh::operator=(FclMesh&&) noexcept = default;
 std::optional<double> Distance(const FclMesh& a, const FclMesh& b, const Eigen::Isometry3d& X_BA,
                                double cut) {
   if (!a.ok() || !b.ok() || !X_BA.matrix().allFinite()) return std::nullopt;
+  const Bvh* const bvh_a = a.model_->bvh();
+  const Bvh* const bvh_b = b.model_->bvh();
+  if (bvh_a == nullptr || bvh_b == nullptr) return std::nullopt;
   try {
     const fcl::DistanceRequestd request(false, false);
     // The traversal prunes at result.min_distance: that is what makes a cut.
     fcl::DistanceResultd result(cut);
-    fcl::distance(&a.model_->bvh, X_BA, &b.model_->bvh, fcl::Transform3d::Identity(), request,
-                  result);
+    fcl::distance(bvh_a, X_BA, bvh_b, fcl::Transform3d::Identity(), request, result);
     const double distance = result.min_distance;
     if (std::isnan(distance)) return std::nullopt;
     return distance < 0.0 ? 0.0 : distance;
@@ -60,11 +86,13 @@ std::optional<double> Distance(const FclMesh& a, const FclMesh& b, const Eigen::
 
 std::optional<bool> Collide(const FclMesh& a, const FclMesh& b, const Eigen::Isometry3d& X_BA) {
   if (!a.ok() || !b.ok() || !X_BA.matrix().allFinite()) return std::nullopt;
+  const Bvh* const bvh_a = a.model_->bvh();
+  const Bvh* const bvh_b = b.model_->bvh();
+  if (bvh_a == nullptr || bvh_b == nullptr) return std::nullopt;
   try {
     const fcl::CollisionRequestd request;
     fcl::CollisionResultd result;
-    fcl::collide(&a.model_->bvh, X_BA, &b.model_->bvh, fcl::Transform3d::Identity(), request,
-                 result);
+    fcl::collide(bvh_a, X_BA, bvh_b, fcl::Transform3d::Identity(), request, result);
     return result.isCollision();
   } catch (const std::exception&) {
     return std::nullopt;
@@ -76,7 +104,7 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
-Corners CornersOf(const fcl::BVHModel<fcl::OBBRSSd>& bvh, intptr_t triangle) {
+Corners CornersOf(const Bvh& bvh, intptr_t triangle) {
   const fcl::Triangle& t = bvh.tri_indices[triangle];
   return {bvh.vertices[t[0]], bvh.vertices[t[1]], bvh.vertices[t[2]]};
 }
@@ -119,8 +147,9 @@ std::optional<std::pair<Vector3d, Vector3d>> CommonOrNearestPoints(const FclMesh
   if (!a.ok() || !b.ok() || !X_BA.matrix().allFinite()) return std::nullopt;
   constexpr std::size_t kTriangles = 64;  // pairs that meet, until one does not only graze
   try {
-    const auto* bvh_a = &a.model_->bvh;
-    const auto* bvh_b = &b.model_->bvh;
+    const Bvh* const bvh_a = a.model_->bvh();
+    const Bvh* const bvh_b = b.model_->bvh();
+    if (bvh_a == nullptr || bvh_b == nullptr) return std::nullopt;
     fcl::CollisionResultd met;
     fcl::collide(bvh_a, X_BA, bvh_b, fcl::Transform3d::Identity(),
                  fcl::CollisionRequestd(kTriangles, false), met);

@@ -18,14 +18,16 @@ namespace ncsim::collision {
 /// of this.
 inline constexpr double kFclDistanceError = 1e-4;
 
+/// A mesh for FCL. Its tree is made when it is first asked for, since that takes longer and more
+/// memory than all else, and most bodies never need it.
 class FclMesh {
  public:
-  explicit FclMesh(const machine::TriangleMesh& mesh);
+  explicit FclMesh(machine::TriangleMesh mesh);
   ~FclMesh();
   FclMesh(FclMesh&&) noexcept;
   FclMesh& operator=(FclMesh&&) noexcept;
 
-  /// False when FCL would not build its tree: nothing about this body can be certified.
+  /// False of a mesh without triangles: nothing about this body can be certified.
   bool ok() const { return model_ != nullptr; }
 
  private:
@@ -39,8 +41,8 @@ class FclMesh {
 };
 
 /// The lesser of `cut` and the distance between the two SURFACES as FCL finds it (0 where they
-/// meet), with A at X_BA in the frame of B. nullopt: FCL failed; the pair cannot be certified at
-/// this pose. A small `cut` is what makes it fast.
+/// meet), with A at X_BA in the frame of B. nullopt: FCL failed, in this or in making its trees;
+/// the pair cannot be certified at this pose. A small `cut` is what makes it fast.
 std::optional<double> Distance(const FclMesh& a, const FclMesh& b, const Eigen::Isometry3d& X_BA,
                                double cut);
 

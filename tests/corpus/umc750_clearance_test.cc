@@ -137,7 +137,8 @@ class Umc750Clearance : public ::testing::Test,
     const double way = Way(motion, a, b);
     double least = 1e9;
     for (double s = 0.0;;) {
-      const double distance = peers::Distance(*a.mesh, *b.mesh, Pose(motion, s, a, b));
+      const double distance =
+          peers::Distance(*a.mesh, *b.mesh, Pose(motion, s, a, b), least + 0.1 * way + 0.1);
       least = std::min(least, distance);
       if (s >= 1.0 || way == 0.0) return least;
       s = std::min(1.0, s + (distance - least + kStep) / way);

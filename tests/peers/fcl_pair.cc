@@ -35,9 +35,9 @@ bool Collides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA)
   return result.isCollision();
 }
 
-double Distance(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA) {
+double Distance(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA, double cut) {
   const fcl::DistanceRequestd request;
-  fcl::DistanceResultd result;
+  fcl::DistanceResultd result(cut);
   return fcl::distance(&a.model_->bvh, X_BA, &b.model_->bvh, fcl::Transform3d::Identity(), request,
                        result);
 }

@@ -26,7 +26,7 @@ class FclBody {
 
  private:
   friend bool Collides(const FclBody&, const FclBody&, const Eigen::Isometry3d&);
-  friend double Distance(const FclBody&, const FclBody&, const Eigen::Isometry3d&);
+  friend double Distance(const FclBody&, const FclBody&, const Eigen::Isometry3d&, double);
   friend bool ContinuousCollides(const FclBody&, const FclBody&, const Eigen::Isometry3d&,
                                  const Eigen::Isometry3d&, Solver);
   struct Model;
@@ -36,8 +36,8 @@ class FclBody {
 /// fcl::collide of `a` at X_BA with `b` at rest.
 bool Collides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA);
 
-/// fcl::distance, mm; of surfaces that meet 0 or less.
-double Distance(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA);
+/// fcl::distance, mm; of surfaces that meet 0 or less, of any that are further apart `cut`.
+double Distance(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA, double cut);
 
 /// fcl::continuousCollide of `a` from one pose to the other with `b` at rest.
 bool ContinuousCollides(const FclBody& a, const FclBody& b, const Eigen::Isometry3d& X_BA0,
