@@ -67,6 +67,9 @@ ConvexProfile::ConvexProfile(const std::vector<ProfileElement>& elements) {
 
 ConvexProfile::Support ConvexProfile::At(double z, double r) const {
   const Vector2d p(z, r);
+  // Rounding must not leave a point between two sectors. A normal that far outside its sector puts
+  // the line no further than that outside the solid.
+  const double slack = 1e-12 * (1.0 + std::abs(z) + r);
   Support best;
   best.distance = -std::numeric_limits<double>::infinity();
   for (const Line& line : lines_) {
@@ -75,7 +78,7 @@ ConvexProfile::Support ConvexProfile::At(double z, double r) const {
   }
   for (const Round& round : rounds_) {
     const Vector2d v = p - round.centre;
-    if (Turn(round.from, v) < 0.0 || Turn(v, round.to) < 0.0) continue;
+    if (Turn(round.from, v) < -slack || Turn(v, round.to) < -slack) continue;
     const double length = v.norm();
     if (length - round.radius <= best.distance) continue;
     // At the centre itself every normal of the sector is as good.

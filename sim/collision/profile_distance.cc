@@ -30,7 +30,9 @@ ProfileDistance::Local ProfileDistance::ToLocal(const Vector3d& p) const {
   const Vector3d v = p - pose_.tip;
   Local local;
   local.z = v.dot(pose_.axis);
-  const Vector3d across = v - local.z * pose_.axis;
+  Vector3d across = v - local.z * pose_.axis;
+  // Again: what rounding left along the axis may be much of a short vector, and would tilt a plane.
+  across -= across.dot(pose_.axis) * pose_.axis;
   local.r = across.norm();
   // On the axis zero is a subgradient across it: the distance is even there.
   local.radial = local.r > 1e-9 ? Vector3d(across / local.r) : Vector3d(Vector3d::Zero());

@@ -17,6 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr int kTurned = 512;  // triangles; the box of more is not turned
+
 std::vector<Vector3d> Representatives(const machine::TriangleMesh& mesh) {
   std::vector<int> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -216,12 +218,14 @@ int TriangleTree::Split(Range range) {
   return middle;
 }
 
-// Between bins of equal width.
+// Between bins of equal width. A sample of many triangles tells as much as all of them.
 std::vector<TriangleTree::Cut> TriangleTree::Cuts(Range range, int axis) const {
   constexpr int kBins = 16;
+  constexpr int kSample = 1024;
+  const int stride = 1 + (range.end - range.begin) / kSample;
   double lower = std::numeric_limits<double>::infinity();
   double upper = -lower;
-  for (int i = range.begin; i < range.end; ++i) {
+  for (int i = range.begin; i < range.end; i += stride) {
     lower = std::min(lower, Place(triangle(i), axis));
     upper = std::max(upper, Place(triangle(i), axis));
   }
@@ -229,11 +233,11 @@ std::vector<TriangleTree::Cut> TriangleTree::Cuts(Range range, int axis) const {
   if (!(upper > lower)) return cuts;
   const double scale = kBins / (upper - lower);
   std::array<Bin, kBins> bins;
-  for (int i = range.begin; i < range.end; ++i) {
+  for (int i = range.begin; i < range.end; i += stride) {
     const int at = static_cast<int>((Place(triangle(i), axis) - lower) * scale);
     Bin& bin = bins[static_cast<std::size_t>(std::min(at, kBins - 1))];
     for (const Vector3d& v : triangle(i)) bin.box.extend(v);
-    ++bin.count;
+    bin.count += stride;
   }
   std::array<Bin, kBins> right = bins;
   for (std::size_t i = kBins - 1; i-- > 0;) right[i].Add(right[i + 1]);
@@ -246,25 +250,30 @@ std::vector<TriangleTree::Cut> TriangleTree::Cuts(Range range, int axis) const {
 }
 
 void TriangleTree::SetBox(Range range, int lane, WideBoxes* boxes) const {
-  Vector3d mean = Vector3d::Zero();
-  for (int i = range.begin; i < range.end; ++i) {
-    for (const Vector3d& v : triangle(i)) mean += v;
+  OrientedBox box = BoxAlong(Eigen::Matrix3d::Identity(), range);
+  if (range.end - range.begin <= kTurned) {
+    const OrientedBox turned = BoxAlong(PrincipalAxes(range), range);
+    if (turned.half.sum() < box.half.sum()) box = turned;
   }
-  mean /= 3.0 * (range.end - range.begin);
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (int i = range.begin; i < range.end; ++i) {
-    for (const Vector3d& v : triangle(i)) spread += (v - mean) * (v - mean).transpose();
-  }
-  const OrientedBox aligned = BoxAlong(Eigen::Matrix3d::Identity(), range);
-  const OrientedBox turned =
-      BoxAlong(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors(), range);
-  const OrientedBox& box = turned.half.sum() < aligned.half.sum() ? turned : aligned;
   for (int k = 0; k < 3; ++k) {
     boxes->centre[k][lane] = static_cast<float>(box.centre[k]);
     for (int i = 0; i < 3; ++i) {
       boxes->half[i][k][lane] = static_cast<float>(box.half[i] * box.axes(k, i));
     }
   }
+}
+
+Eigen::Matrix3d TriangleTree::PrincipalAxes(Range range) const {
+  const int corners = 3 * (range.end - range.begin);
+  Vector3d mean = Vector3d::Zero();
+  for (int i = range.begin; i < range.end; ++i)
+    mean += triangle(i)[0] + triangle(i)[1] + triangle(i)[2];
+  mean /= corners;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (int i = range.begin; i < range.end; ++i) {
+    for (const Vector3d& v : triangle(i)) spread += (v - mean) * (v - mean).transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
 }
 
 TriangleTree::OrientedBox TriangleTree::BoxAlong(const Eigen::Matrix3d& axes, Range range) const {

@@ -66,6 +66,7 @@ class TriangleTree {
     Eigen::Vector3d centre, half;
     Eigen::Matrix3d axes;
   };
+  Eigen::Matrix3d PrincipalAxes(Range range) const;
   OrientedBox BoxAlong(const Eigen::Matrix3d& axes, Range range) const;
   void SetBox(Range range, int lane, WideBoxes* boxes) const;
   void PackLeaves();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <utility>
@@ -115,6 +116,37 @@ TEST(WideBoundsTest, NoPointIsNearer) {
     }
   });
   EXPECT_LT(closest, 1e-3) << "the bounds of triangles are not tight";
+}
+
+// Slivers along the axis, so near that the direction from it to them is mostly rounding: deep
+// inside a long cylinder the distance is r - 2.
+TEST(WideBoundsTest, SliversAlongTheAxis) {
+  const ProfileShape shape(CylinderProfile(0, 400, 2));
+  WideShape wide(shape);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Isometry3d X = RandomPose(random, 100);
+    machine::TriangleMesh mesh;
+    for (int k = 0; k < 3 * kWide; ++k) {
+      const double r = std::pow(10.0, -5.0 + 4.0 * unit(random));
+      const double angle = unit(random);
+      mesh.vertices.push_back(
+          X * Vector3d(r * std::cos(angle), r * std::sin(angle), 200.0 + 40.0 * unit(random)));
+      if (k % 3 == 2) mesh.triangles.push_back({k - 2, k - 1, k});
+    }
+    const TriangleTree tree(mesh);
+    const Vector3d axis = X.linear().col(2);
+    std::array<float, kWide> lower{};
+    BoundTriangles(tree.leaf(0), wide.Place(X.translation(), axis, tree), kEverything,
+                   lower.data());
+    for (std::size_t lane = 0; lane < kWide; ++lane) {
+      for (const Vector3d& p : tree.triangle(static_cast<int>(lane))) {
+        const double r = (X.inverse() * p).head<2>().norm();
+        ASSERT_LE(static_cast<double>(lower[lane]), r - 2.0);
+      }
+    }
+  }
 }
 
 // Every triangle is in the boxes above it.
