@@ -43,10 +43,14 @@ struct Tally {
   int unmet = 0;              ///< Poses whose goal was not met.
 
   void Add(const Interval& d, double truth, const DistanceGoal& goal) {
-    ++poses;
-    ++(truth < -1e-6 ? overlapping : truth < 1e-6 ? touching : separated);
     over = std::max(over, d.lower - truth);
     under = std::max(under, truth - d.upper);
+    Count(d, truth, goal);
+  }
+
+  void Count(const Interval& d, double truth, const DistanceGoal& goal) {
+    ++poses;
+    ++(truth < -1e-6 ? overlapping : truth < 1e-6 ? touching : separated);
     const double gap = std::max(goal.gap, goal.relative_gap * (d.lower - goal.floor));
     const double error = 3.0 * kKernelError;
     const bool met = d.upper - d.lower <= gap + error || d.lower >= goal.stop_above - error ||
@@ -219,12 +223,11 @@ TEST(KernelConformanceTest, CylinderAndBoxOnALattice) {
     if (room >= 0.0) {
       tally.Add(d, room, goal);
     } else {
-      ++tally.overlapping;
+      tally.Count(d, -kRadius, goal);
       EXPECT_LE(d.lower, 0.0);
       EXPECT_LE(d.upper, kKernelError);
     }
   }
-  tally.poses += tally.overlapping;
   tally.Expect("cylinder and box on a lattice", 1e-12);
   EXPECT_GT(tally.touching, 500);
 }
@@ -334,12 +337,14 @@ TEST(KernelConformanceTest, BruteForceInDouble) {
         for (const PlaneDistance& part : tool.parts) {
           truth = std::min(truth, BruteForce(triangles, pose, part));
         }
-        const DistanceGoal goal = Goal(i);
+        // Inside a solid that is not convex only halving helps: the finest goal is not for it.
+        DistanceGoal goal = Goal(i);
+        if (tool.parts.size() > 1) goal.gap = std::max(goal.gap, 2e-3);
         const Interval d = kernel.Surface(pose, goal);
         if (truth >= 0.0 || tool.parts.size() == 1) {
           tally.Add(d, truth, goal);
         } else {
-          ++tally.overlapping;
+          tally.Count(d, truth, goal);
           EXPECT_LE(d.lower, truth) << tool.name << " and " << named.name;
           EXPECT_LE(d.upper, kKernelError);
         }

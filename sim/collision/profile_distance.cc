@@ -49,6 +49,14 @@ double ProfileDistance::Distance(const Vector3d& p) const {
   return shape_->exact().Distance(local.z, local.r);
 }
 
+Vector3d ProfileDistance::NearestOnSurface(const Vector3d& p) const {
+  const Local local = ToLocal(p);
+  const Eigen::Vector2d nearest = shape_->exact().Nearest(local.z, local.r);
+  // From the axis, any direction.
+  const Vector3d radial = local.radial.isZero() ? pose_.axis.unitOrthogonal() : local.radial;
+  return pose_.tip + nearest.x() * pose_.axis + nearest.y() * radial;
+}
+
 void ProfileDistance::See(const Vector3d& p, double distance) {
   if (distance >= upper_) return;
   witness_ = p;
@@ -195,7 +203,8 @@ void ProfileDistance::ExpandTriangle(const Triangle& piece, double lower, bool s
   PushPiece({middle, b, c}, lower);
 }
 
-// The distance changes by no more than the way.
+// The distance changes by no more than the way. And no point is deeper than it is far from any one
+// point of the surface; that way is longest to a corner.
 void ProfileDistance::PushPiece(const Triangle& piece, double at_least) {
   ++evaluations_;
   const Vector3d centre = (piece[0] + piece[1] + piece[2]) / 3.0;
@@ -204,7 +213,13 @@ void ProfileDistance::PushPiece(const Triangle& piece, double at_least) {
   const double radius = std::sqrt(squared);
   const double distance = Distance(centre);
   See(centre, distance);
-  const double lower = std::max(at_least, distance - radius);
+  double lower = std::max(at_least, distance - radius);
+  if (distance < 0.0) {
+    const Vector3d nearest = NearestOnSurface(centre);
+    double deepest = 0.0;
+    for (const Vector3d& v : piece) deepest = std::max(deepest, (v - nearest).norm());
+    lower = std::max(lower, -deepest);
+  }
   if (lower >= enough_) {
     passed_ = std::min(passed_, lower);
     return;

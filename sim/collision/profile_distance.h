@@ -84,6 +84,7 @@ class ProfileDistance {
   };
   Local ToLocal(const Eigen::Vector3d& p) const;
   double Distance(const Eigen::Vector3d& p) const;
+  Eigen::Vector3d NearestOnSurface(const Eigen::Vector3d& p) const;
   void See(const Eigen::Vector3d& p, double distance);
   void SetUpper(double upper);
   void Push(double lower, Kind kind, int index);

@@ -143,7 +143,9 @@ ProfileChain::ProfileChain(const std::vector<ProfileElement>& elements) {
   }
 }
 
-double ProfileChain::SquaredDistance(const Vector2d& p) const {
+Vector2d ProfileChain::Nearest(double z, double r) const {
+  const Vector2d p(z, r);
+  Vector2d nearest = Vector2d::Zero();
   double least = std::numeric_limits<double>::infinity();
   for (const Element& e : elements_) {
     Vector2d q;
@@ -159,9 +161,13 @@ double ProfileChain::SquaredDistance(const Vector2d& p) const {
         q = (p - e.start).squaredNorm() < (p - e.end).squaredNorm() ? e.start : e.end;
       }
     }
-    least = std::min(least, (p - q).squaredNorm());
+    const double squared = (p - q).squaredNorm();
+    if (squared < least) {
+      least = squared;
+      nearest = q;
+    }
   }
-  return least;
+  return nearest;
 }
 
 bool ProfileChain::Inside(double z, double r) const {
@@ -181,7 +187,7 @@ bool ProfileChain::Inside(double z, double r) const {
 }
 
 double ProfileChain::Distance(double z, double r) const {
-  const double d = std::sqrt(SquaredDistance({z, r}));
+  const double d = (Vector2d(z, r) - Nearest(z, r)).norm();
   return Inside(z, r) ? -d : d;
 }
 

@@ -21,6 +21,8 @@ class ProfileChain {
 
   /// Signed distance to the solid's surface; negative inside.
   double Distance(double z, double r) const;
+  /// The point (z, r) of the surface that is nearest.
+  Eigen::Vector2d Nearest(double z, double r) const;
 
  private:
   struct Element {
@@ -32,7 +34,6 @@ class ProfileChain {
     double radius = 0.0;        // arc
     Eigen::Vector2d from, to;   // arc: unit, centre to start and to end
   };
-  double SquaredDistance(const Eigen::Vector2d& p) const;
   bool Inside(double z, double r) const;
 
   std::vector<Element> elements_;

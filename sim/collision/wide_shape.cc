@@ -2,6 +2,7 @@
 #include "sim/collision/wide_shape.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ncsim::collision {
 
@@ -17,7 +18,6 @@ WideShape::WideShape(const ProfileShape& shape) : middle_(0.5 * (shape.z_min() +
   if (!shape.convex()) Add(shape.hull());
   solid_.parts = parts_.data();
   solid_.hull = shape.convex() ? nullptr : &parts_.back();
-  solid_.reach = Narrowed(std::max(shape.r_max(), shape.z_max() - middle_));
 }
 
 void WideShape::Add(const ConvexProfile& profile) {
@@ -25,12 +25,15 @@ void WideShape::Add(const ConvexProfile& profile) {
   for (const ConvexProfile::Line& line : profile.lines()) {
     lines.push_back({Narrowed(line.normal.x()), Narrowed(line.normal.y()),
                      Narrowed(line.offset - line.normal.x() * middle_)});
+    solid_.reach = std::max(solid_.reach, std::abs(lines.back().offset));
   }
   std::vector<WideRound>& rounds = rounds_.emplace_back();
   for (const ConvexProfile::Round& round : profile.rounds()) {
     rounds.push_back({Narrowed(round.centre.x() - middle_), Narrowed(round.centre.y()),
                       Narrowed(round.radius), Narrowed(round.from.x()), Narrowed(round.from.y()),
                       Narrowed(round.to.x()), Narrowed(round.to.y())});
+    const WideRound& added = rounds.back();
+    solid_.reach = std::max({solid_.reach, std::abs(added.z), std::abs(added.r), added.radius});
   }
   parts_.push_back({lines.data(), static_cast<int>(lines.size()), rounds.data(),
                     static_cast<int>(rounds.size())});
