@@ -41,7 +41,7 @@ class WideKernel {
       const Vector a = LoadVector(triangles.corner[0], i);
       const Vector b = LoadVector(triangles.corner[1], i);
       const Vector c = LoadVector(triangles.corner[2], i);
-      Store(Bound(Triangle{FromOrigin(a, solid), Minus(b, a), Minus(c, a)}, solid, enough),
+      Store(Bound(Triangle{FromOrigin(a, solid), {Minus(b, a), Minus(c, a)}}, solid, enough),
             lower + i);
     }
   }
