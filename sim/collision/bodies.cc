@@ -64,6 +64,7 @@ MeshBody::MeshBody(const machine::SceneBody& body)
       defect(Defect(body)),
       extent(ExtentOf(body)),
       tree(Usable(body)),
+      boxes(Usable(body)),
       fcl(Usable(body)) {}
 
 const machine::Profile& ProfileOf(const machine::Tool& tool, machine::BodyKind kind) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kinematics/relative_bound.h"
+#include "sim/collision/box_tree.h"
 #include "sim/collision/fcl_backend.h"
 #include "sim/collision/profile_shape.h"
 #include "sim/collision/triangle_tree.h"
@@ -24,6 +25,7 @@ struct MeshBody {
   std::string defect;  ///< Non-empty: cannot be trusted, and why.
   kinematics::Extent extent;
   TriangleTree tree;
+  BoxTree boxes;
   FclMesh fcl;
 };
 

@@ -83,7 +83,7 @@ class SweptEngine final : public PairEngine {
 class MeshEngine final : public PairEngine {
  public:
   MeshEngine(std::shared_ptr<const MeshBody> a, std::shared_ptr<const MeshBody> b)
-      : a_(std::move(a)), b_(std::move(b)), kernel_(a_->tree, b_->tree) {}
+      : a_(std::move(a)), b_(std::move(b)), kernel_(a_->boxes, b_->boxes) {}
 
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     if (!a_->fcl.ok() || !b_->fcl.ok() || !X_BA.matrix().allFinite()) return std::nullopt;

@@ -12,15 +12,15 @@ namespace ncsim::collision {
 namespace {
 
 using Eigen::Vector3d;
-using Node = TriangleTree::Node;
-using Triangle = TriangleTree::Triangle;
+using Node = BoxTree::Node;
+using Triangle = BoxTree::Triangle;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Rounding errors as parts of the coordinates' size: a bound is a dozen sums of products (2^-53
 // each), their root of three squares.
 constexpr double kRounding = 256.0 * 0x1p-53;
 
-double Extent(const TriangleTree& tree) {
+double Extent(const BoxTree& tree) {
   if (tree.empty()) return 0.0;
   return (tree.node(0).centre.cwiseAbs() + tree.node(0).half).sum();
 }
@@ -31,7 +31,7 @@ double SquaredGap(const Vector3d& between, const Vector3d& halves) {
 
 }  // namespace
 
-MeshDistance::MeshDistance(const TriangleTree& a, const TriangleTree& b)
+MeshDistance::MeshDistance(const BoxTree& a, const BoxTree& b)
     : a_(&a), b_(&b), extent_(Extent(a) + Extent(b)) {}
 
 // A vector of B's frame, seen along the columns of a matrix that is no rotation by `lack`, has a

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "sim/collision/box_tree.h"
 #include "sim/collision/profile_distance.h"
-#include "sim/collision/triangle_tree.h"
 
 namespace ncsim::collision {
 
@@ -19,7 +19,7 @@ namespace ncsim::collision {
 class MeshDistance {
  public:
   /// Both outlive this.
-  MeshDistance(const TriangleTree& a, const TriangleTree& b);
+  MeshDistance(const BoxTree& a, const BoxTree& b);
 
   /// With A at X_BA in the frame of B. Where the surfaces meet, or nearly so, `lower` is 0 and
   /// `upper` may be far off: what to call contact is not decided here. Rounding is covered for a
@@ -40,12 +40,12 @@ class MeshDistance {
   Cell Bound(int a, int b, double at_least);
   void Split(const Cell& cell);
   void Meet(const Cell& cell);
-  double Refine(int i, int j, const TriangleTree::Triangle& a);
-  TriangleTree::Triangle Placed(int i) const;
+  double Refine(int i, int j, const BoxTree::Triangle& a);
+  BoxTree::Triangle Placed(int i) const;
   bool Keep(const Cell& cell);
 
-  const TriangleTree* a_;
-  const TriangleTree* b_;
+  const BoxTree* a_;
+  const BoxTree* b_;
   double extent_ = 0.0;  // of the coordinates, mm
   int nearest_a_ = 0;    // triangles of the last witness
   int nearest_b_ = 0;

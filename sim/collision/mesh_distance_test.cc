@@ -154,8 +154,8 @@ void ExpectHolds(const Interval& d, const DistanceGoal& goal, Real truth, int i)
 void AgreeWithBruteForce(const machine::TriangleMesh& a, const machine::TriangleMesh& b,
                          const Vector3d& centre_a, const Vector3d& centre_b, int poses,
                          double reach, std::mt19937& random) {
-  const TriangleTree tree_a(a);
-  const TriangleTree tree_b(b);
+  const BoxTree tree_a(a);
+  const BoxTree tree_b(b);
   MeshDistance kernel(tree_a, tree_b);
   const Features still(b, Isometry3d::Identity());
   int hits = 0;
@@ -196,8 +196,8 @@ TEST(MeshDistanceTest, TetrahedraAgreeWithBruteForce) {
 TEST(MeshDistanceTest, LatticeOfBoxes) {
   const Vector3d half_a(4, 3, 2);
   const Vector3d half_b(10, 12, 14);
-  const TriangleTree tree_a(BoxMesh(-half_a, half_a));
-  const TriangleTree tree_b(BoxMesh(-half_b, half_b));
+  const BoxTree tree_a(BoxMesh(-half_a, half_a));
+  const BoxTree tree_b(BoxMesh(-half_b, half_b));
   MeshDistance kernel(tree_a, tree_b);
   for (int place = 0; place < 33 * 33 * 33; ++place) {
     const Vector3d p = Eigen::Vector3i(place % 33, place / 33 % 33, place / 1089).cast<double>() -
@@ -228,8 +228,8 @@ TEST(MeshDistanceTest, SpheresAgreeWithTheirCentresAndFcl) {
   std::mt19937 random(43);
   const machine::TriangleMesh a = SphereMesh({5, 0, 0}, 25, 16);
   const machine::TriangleMesh b = SphereMesh({0, -7, 0}, 60, 24);
-  const TriangleTree tree_a(a);
-  const TriangleTree tree_b(b);
+  const BoxTree tree_a(a);
+  const BoxTree tree_b(b);
   const FclMesh fcl_a(a);
   const FclMesh fcl_b(b);
   MeshDistance kernel(tree_a, tree_b);
@@ -256,8 +256,8 @@ TEST(MeshDistanceTest, SpheresAgreeWithTheirCentresAndFcl) {
 
 // Flat on flat, turned against each other: every pair of facets is as near as the next.
 TEST(MeshDistanceTest, FlatOnFlat) {
-  const TriangleTree tree(BoxMesh({-500, -500, -20}, {500, 500, 0}));
-  const TriangleTree on_top(BoxMesh({-300, -200, 0}, {300, 200, 50}));
+  const BoxTree tree(BoxMesh({-500, -500, -20}, {500, 500, 0}));
+  const BoxTree on_top(BoxMesh({-300, -200, 0}, {300, 200, 50}));
   MeshDistance kernel(on_top, tree);
   for (const double gap : {1e-9, 1e-6, 0.001, 0.05, 3.0, 700.0}) {
     Isometry3d X = Isometry3d::Identity();
@@ -272,8 +272,8 @@ TEST(MeshDistanceTest, FlatOnFlat) {
 
 TEST(MeshDistanceTest, FewEvaluationsAreStillRight) {
   std::mt19937 random(44);
-  const TriangleTree a(SphereMesh({0, 0, 0}, 25, 16));
-  const TriangleTree b(SphereMesh({0, 0, 0}, 60, 24));
+  const BoxTree a(SphereMesh({0, 0, 0}, 25, 16));
+  const BoxTree b(SphereMesh({0, 0, 0}, 60, 24));
   MeshDistance fine(a, b);
   for (int i = 0; i < 1000; ++i) {
     const Isometry3d X = RandomPose(random, 150);
@@ -298,8 +298,8 @@ TEST(MeshDistanceTest, LackOfOrthogonality) {
   std::uniform_real_distribution<double> uniform(-1e-7, 1e-7);
   const machine::TriangleMesh a = BoxMesh({600, 600, 600}, {640, 620, 650});
   const machine::TriangleMesh b = BoxMesh({0, 0, 0}, {30, 30, 30});
-  const TriangleTree tree_a(a);
-  const TriangleTree tree_b(b);
+  const BoxTree tree_a(a);
+  const BoxTree tree_b(b);
   MeshDistance kernel(tree_a, tree_b);
   for (int i = 0; i < 2000; ++i) {
     Isometry3d X = RandomPose(random, 100);
@@ -311,8 +311,8 @@ TEST(MeshDistanceTest, LackOfOrthogonality) {
 }
 
 TEST(MeshDistanceTest, BoxesApart) {
-  const TriangleTree a(BoxMesh({-1, -1, -1}, {1, 1, 1}));
-  const TriangleTree b(BoxMesh({-10, -10, -10}, {10, 10, 10}));
+  const BoxTree a(BoxMesh({-1, -1, -1}, {1, 1, 1}));
+  const BoxTree b(BoxMesh({-10, -10, -10}, {10, 10, 10}));
   MeshDistance kernel(a, b);
   Isometry3d X = Isometry3d::Identity();
   EXPECT_FALSE(kernel.BoxesApart(X));

@@ -2,6 +2,7 @@
 #include "sim/collision/profile_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/collision/convex_minimum.h"
@@ -10,7 +11,6 @@ namespace ncsim::collision {
 
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Triangle = TriangleTree::Triangle;
 
@@ -24,154 +24,168 @@ RevolvedPose ToolPose(const Eigen::Isometry3d& X_GS, double length) {
 }
 
 ProfileDistance::ProfileDistance(const ProfileShape& shape, const TriangleTree& tree)
-    : shape_(&shape), tree_(&tree) {}
+    : shape_(&shape), tree_(&tree), wide_(shape) {}
 
 ProfileDistance::Local ProfileDistance::ToLocal(const Vector3d& p) const {
   const Vector3d v = p - pose_.tip;
   Local local;
   local.z = v.dot(pose_.axis);
-  const Vector3d across = v - local.z * pose_.axis;
+  Vector3d across = v - local.z * pose_.axis;
+  // Again: what rounding left along the axis may be much of a short vector, and would tilt a plane.
+  across -= across.dot(pose_.axis) * pose_.axis;
   local.r = across.norm();
   // On the axis zero is a subgradient across it: the distance is even there.
   local.radial = local.r > 1e-9 ? Vector3d(across / local.r) : Vector3d(Vector3d::Zero());
   return local;
 }
 
-Vector3d ProfileDistance::Gradient(const Local& local, const Vector2d& gradient) const {
-  return gradient.x() * pose_.axis + gradient.y() * local.radial;
-}
-
-template <typename LeastLinear>
-double ProfileDistance::Bound(const Local& local, double distance, const Vector2d& gradient,
-                              double radius, const LeastLinear& least_linear) const {
-  double lower = distance - radius;
-  if (shape_->exact().convex()) {
-    return std::max(lower, distance + least_linear(Gradient(local, gradient)));
+double ProfileDistance::Distance(const Vector3d& p) const {
+  const Local local = ToLocal(p);
+  double least = kInfinity;
+  for (const ConvexProfile& part : shape_->parts()) {
+    least = std::min(least, part.At(local.z, local.r).distance);
   }
-  const ProfileSample hull = shape_->hull().Sample(local.z, local.r);
-  lower = std::max(lower, hull.distance + least_linear(Gradient(local, hull.gradient)));
-  if (distance <= 0.0 || lower >= upper_) return lower;
-  double slabs = kInfinity;
-  for (const ProfileChain& slab : shape_->slabs()) {
-    const ProfileSample sample = slab.Sample(local.z, local.r);
-    double bound = sample.distance - radius;
-    if (bound < slabs) {
-      bound = std::max(bound, sample.distance + least_linear(Gradient(local, sample.gradient)));
-    }
-    slabs = std::min(slabs, bound);
-    if (slabs < 0.0) return lower;  // maybe inside, where the union is deeper than its slabs
-  }
-  return std::max(lower, slabs);
+  if (least >= 0.0 || shape_->convex()) return least;
+  return shape_->exact().Distance(local.z, local.r);
 }
 
-double ProfileDistance::BoundNode(const TriangleTree::Node& node) const {
-  const Local local = ToLocal(node.centre);
-  const ProfileSample sample = shape_->exact().Sample(local.z, local.r);
-  return Bound(local, sample.distance, sample.gradient, node.half.norm(),
-               [&node](const Vector3d& g) { return -g.cwiseAbs().dot(node.half); });
+Vector3d ProfileDistance::NearestOnSurface(const Vector3d& p) const {
+  const Local local = ToLocal(p);
+  const Eigen::Vector2d nearest = shape_->exact().Nearest(local.z, local.r);
+  // From the axis, any direction.
+  const Vector3d radial = local.radial.isZero() ? pose_.axis.unitOrthogonal() : local.radial;
+  return pose_.tip + nearest.x() * pose_.axis + nearest.y() * radial;
 }
 
-double ProfileDistance::BoundPiece(const Triangle& piece, double* at_centre, double* radius) const {
-  const Vector3d centre = (piece[0] + piece[1] + piece[2]) / 3.0;
-  const Local local = ToLocal(centre);
-  const ProfileSample sample = shape_->exact().Sample(local.z, local.r);
-  *at_centre = sample.distance;
-  double squared = 0.0;
-  for (const Vector3d& v : piece) squared = std::max(squared, (v - centre).squaredNorm());
-  *radius = std::sqrt(squared);
-  return Bound(local, sample.distance, sample.gradient, *radius, [&](const Vector3d& g) {
-    return std::min({g.dot(piece[0] - centre), g.dot(piece[1] - centre), g.dot(piece[2] - centre)});
-  });
+void ProfileDistance::See(const Vector3d& p, double distance) {
+  if (distance >= upper_) return;
+  witness_ = p;
+  SetUpper(distance);
 }
 
-void ProfileDistance::Push(const Cell& cell) {
-  heap_.push_back(cell);
-  std::push_heap(heap_.begin(), heap_.end(),
-                 [](const Cell& a, const Cell& b) { return a.lower > b.lower; });
+void ProfileDistance::SetUpper(double upper) {
+  upper_ = upper;
+  const double relative = (upper + goal_.relative_gap * goal_.floor) / (1.0 + goal_.relative_gap);
+  enough_ = std::min({upper - goal_.gap, relative, goal_.stop_above});
 }
 
-void ProfileDistance::PushNode(int index) {
-  ++evaluations_;
-  const double lower = BoundNode(tree_->node(index));
-  if (lower < upper_) Push({lower, index, -1, false});
-}
-
-void ProfileDistance::PushPiece(const Triangle& piece, double at_least, bool is_whole) {
-  ++evaluations_;
-  double at_centre = 0.0;
-  double radius = 0.0;
-  const double lower = std::max(at_least, BoundPiece(piece, &at_centre, &radius));
-  upper_ = std::min(upper_, at_centre);
-  if (lower >= upper_) return;
-  // Halves of a triangle that is no convex problem become one when they lie outside.
-  Push({lower, -1, Keep(piece), is_whole || at_centre > 0.5 * radius});
-}
-
-void ProfileDistance::Expand(const Cell& cell, const DistanceGoal& goal) {
-  if (cell.node >= 0) {
-    const TriangleTree::Node& node = tree_->node(cell.node);
-    if (node.count == 0) {
-      PushNode(node.first);
-      PushNode(node.first + 1);
-      return;
-    }
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      PushPiece(tree_->triangle(i), cell.lower, true);
-    }
+void ProfileDistance::Push(double lower, Kind kind, int index) {
+  if (lower >= enough_) {
+    passed_ = std::min(passed_, lower);
     return;
   }
-  const Triangle piece = pieces_[static_cast<std::size_t>(cell.piece)];
-  free_pieces_.push_back(cell.piece);
-  const double lower = cell.solve ? std::max(cell.lower, Solve(piece, goal)) : cell.lower;
-  if (lower >= upper_) return;
-  if (cell.solve && upper_ - lower <= goal.gap) {
-    Push({lower, -1, Keep(piece), false});  // good enough: the search ends when it comes up
-  } else {
-    Halve(piece, lower);
+  heap_.push_back({lower, kind, index});
+  std::push_heap(heap_.begin(), heap_.end(), Later);
+}
+
+void ProfileDistance::Expand(const Cell& cell) {
+  switch (cell.kind) {
+    case Kind::kNode:
+      return cell.index < 0 ? ExpandLeaf(~cell.index, cell.lower)
+                            : ExpandNode(tree_->node(cell.index), cell.lower);
+    case Kind::kTriangle:
+      return ExpandTriangle(tree_->triangle(cell.index), cell.lower, true);
+    default:
+      free_pieces_.push_back(cell.index);
+      const Triangle piece = pieces_[static_cast<std::size_t>(cell.index)];
+      return ExpandTriangle(piece, cell.lower, cell.kind == Kind::kConvexPiece);
   }
 }
 
-int ProfileDistance::Keep(const Triangle& piece) {
-  if (free_pieces_.empty()) {
-    pieces_.push_back(piece);
-    return static_cast<int>(pieces_.size()) - 1;
+void ProfileDistance::ExpandNode(const TriangleTree::Node& node, double at_least) {
+  ++evaluations_;
+  std::array<float, kWide> lower;
+  BoundBoxes(node.boxes, *solid_, static_cast<float>(enough_), lower.data());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(node.count); ++i) {
+    Push(std::max(at_least, static_cast<double>(lower[i])), Kind::kNode, node.child[i]);
   }
-  const int slot = free_pieces_.back();
-  free_pieces_.pop_back();
-  pieces_[static_cast<std::size_t>(slot)] = piece;
-  return slot;
 }
 
-// Where the distance is convex, a triangle is a convex problem. Elsewhere (inside a solid that is
-// not convex) -inf.
-double ProfileDistance::Solve(const Triangle& piece, const DistanceGoal& goal) {
-  const auto least = [&](const ProfileChain& chain) {
-    const ConvexMinimum minimum = MinimiseOverTriangle(
-        piece,
-        [&](const Vector3d& p) {
-          ++evaluations_;
-          const Local local = ToLocal(p);
-          const ProfileSample sample = chain.Sample(local.z, local.r);
-          return ConvexSample{sample.distance, Gradient(local, sample.gradient)};
-        },
-        std::min(upper_, goal.stop_above), 0.5 * goal.gap);
-    // A witness of the whole solid: no slab is nearer than the solid itself.
-    if (minimum.upper < upper_) {
-      const Local local = ToLocal(minimum.at);
-      upper_ = std::min(upper_, shape_->exact().Distance(local.z, local.r));
+void ProfileDistance::ExpandLeaf(int leaf, double at_least) {
+  ++evaluations_;
+  std::array<float, kWide> lower;
+  BoundTriangles(tree_->leaf(leaf), *solid_, static_cast<float>(enough_), lower.data());
+  for (int i = 0; i < tree_->leaf_size(leaf); ++i) {
+    Push(std::max(at_least, static_cast<double>(lower[static_cast<std::size_t>(i)])),
+         Kind::kTriangle, kWide * leaf + i);
+  }
+}
+
+// The distance to a convex solid is a convex function, so a plane that supports the solid bounds it
+// over all of the triangle by its least value at a corner. Newton's method brings that to the truth
+// in a few steps where the distance is smooth; where it is not, cutting planes do.
+double ProfileDistance::LeastOver(const ConvexProfile& convex, bool is_part,
+                                  const Triangle& piece) {
+  constexpr int kSteps = 8;
+  const bool is_whole = is_part && shape_->convex();
+  TriangleDescent descent(piece);
+  TriangleDescent best = descent;
+  double lower = -kInfinity;
+  double upper = kInfinity;
+  for (int i = 0; i < kSteps; ++i) {
+    const Vector3d p = descent.at();
+    const Tangent tangent = TangentAt(convex, p);
+    See(p, is_part ? tangent.distance : Distance(p));
+    if (is_part && !is_whole && tangent.distance < 0.0) return -kInfinity;
+    const Vector3d& slope = tangent.model.slope;
+    lower = std::max(lower,
+                     tangent.distance + std::min({slope.dot(piece[0] - p), slope.dot(piece[1] - p),
+                                                  slope.dot(piece[2] - p)}));
+    if (lower >= enough_ || upper_ < goal_.stop_below) return lower;
+    if (tangent.distance > upper) {
+      descent.Retreat(best);
+      continue;
     }
-    return minimum.lower;
-  };
-  if (shape_->exact().convex()) return least(shape_->exact());
-  double slabs = kInfinity;
-  for (const ProfileChain& slab : shape_->slabs()) {
-    slabs = std::min(slabs, least(slab));
-    if (slabs < 0.0) break;
+    upper = tangent.distance;
+    best = descent;
+    descent.Step(tangent.model);
   }
-  return slabs >= 0.0 ? slabs : least(shape_->hull());
+  const ConvexMinimum minimum = MinimiseOverTriangle(
+      piece,
+      [&](const Vector3d& p) {
+        const Tangent tangent = TangentAt(convex, p);
+        return ConvexSample{tangent.distance, tangent.model.slope};
+      },
+      enough_, 0.5 * goal_.gap);
+  See(minimum.at, is_part ? minimum.upper : Distance(minimum.at));
+  return std::max(lower, minimum.lower);
 }
 
-void ProfileDistance::Halve(const Triangle& piece, double lower) {
+ProfileDistance::Tangent ProfileDistance::TangentAt(const ConvexProfile& convex,
+                                                    const Vector3d& p) {
+  ++evaluations_;
+  const Local local = ToLocal(p);
+  const ConvexProfile::Support support = convex.At(local.z, local.r);
+  const double z = support.normal.x();
+  const double r = support.normal.y();
+  // How the distance bends along the profile and around the axis. Its sum with the larger radius of
+  // the two has a square that bends as much along the slope: about a corner or the axis that is
+  // exact, however far the point.
+  const double around = r / std::max(local.r, 1e-9);
+  const double most = support.curvature > 0.0 ? support.curvature : around;
+  return {support.distance,
+          {z * pose_.axis + r * local.radial,
+           {z * pose_.axis + r * local.radial, z * local.radial - r * pose_.axis,
+            pose_.axis.cross(local.radial)},
+           {most, support.curvature, around}}};
+}
+
+// Where the triangle may be inside a solid that is not convex, its parts bound nothing.
+double ProfileDistance::LeastOver(const Triangle& piece) {
+  double least = kInfinity;
+  for (const ConvexProfile& part : shape_->parts()) {
+    least = std::min(least, LeastOver(part, true, piece));
+    if (least < 0.0 && !shape_->convex()) return LeastOver(shape_->hull(), false, piece);
+  }
+  return least;
+}
+
+void ProfileDistance::ExpandTriangle(const Triangle& piece, double lower, bool solve) {
+  if (solve) lower = std::max(lower, LeastOver(piece));
+  if (lower >= enough_ || upper_ < goal_.stop_below) {
+    passed_ = std::min(passed_, lower);
+    return;
+  }
   std::size_t longest = 0;
   double length = -1.0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -185,33 +199,65 @@ void ProfileDistance::Halve(const Triangle& piece, double lower) {
   const Vector3d& b = piece[(longest + 1) % 3];
   const Vector3d& c = piece[(longest + 2) % 3];
   const Vector3d middle = 0.5 * (a + b);
-  PushPiece({a, middle, c}, lower, false);
-  PushPiece({middle, b, c}, lower, false);
+  PushPiece({a, middle, c}, lower);
+  PushPiece({middle, b, c}, lower);
+}
+
+// The distance changes by no more than the way. And no point is deeper than it is far from any one
+// point of the surface; that way is longest to a corner.
+void ProfileDistance::PushPiece(const Triangle& piece, double at_least) {
+  ++evaluations_;
+  const Vector3d centre = (piece[0] + piece[1] + piece[2]) / 3.0;
+  double squared = 0.0;
+  for (const Vector3d& v : piece) squared = std::max(squared, (v - centre).squaredNorm());
+  const double radius = std::sqrt(squared);
+  const double distance = Distance(centre);
+  See(centre, distance);
+  double lower = std::max(at_least, distance - radius);
+  if (distance < 0.0) {
+    const Vector3d nearest = NearestOnSurface(centre);
+    double deepest = 0.0;
+    for (const Vector3d& v : piece) deepest = std::max(deepest, (v - nearest).norm());
+    lower = std::max(lower, -deepest);
+  }
+  if (lower >= enough_) {
+    passed_ = std::min(passed_, lower);
+    return;
+  }
+  int slot = static_cast<int>(pieces_.size());
+  if (free_pieces_.empty()) {
+    pieces_.push_back(piece);
+  } else {
+    slot = free_pieces_.back();
+    free_pieces_.pop_back();
+    pieces_[static_cast<std::size_t>(slot)] = piece;
+  }
+  // Pieces of a triangle that is no convex problem become one when they lie outside.
+  Push(lower, distance > 0.5 * radius ? Kind::kConvexPiece : Kind::kPiece, slot);
 }
 
 Interval ProfileDistance::Surface(const RevolvedPose& pose, const DistanceGoal& goal) {
+  if (tree_->empty()) return {kInfinity, kInfinity};
   pose_ = pose;
-  upper_ = kInfinity;
+  solid_ = &wide_.Place(pose.tip, pose.axis, *tree_);
+  goal_ = goal;
+  passed_ = kInfinity;
+  SetUpper(kInfinity);
   evaluations_ = 0;
   heap_.clear();
   pieces_.clear();
   free_pieces_.clear();
-  if (tree_->empty()) return {kInfinity, kInfinity};
-  PushNode(0);
-  // What the heap no longer holds is at least the witness away, so the certified bound is the
-  // lesser of the heap's top and the witness.
-  while (!heap_.empty()) {
-    const double lower = heap_.front().lower;
-    if (lower >= goal.stop_above || upper_ < goal.stop_below) break;
-    const double gap = std::max(goal.gap, goal.relative_gap * (lower - goal.floor));
-    if (upper_ - lower <= gap || evaluations_ > goal.max_evaluations) break;
+  if (witness_.has_value()) See(*witness_, Distance(*witness_));
+  ExpandNode(tree_->node(0), -kInfinity);
+  while (!heap_.empty() && heap_.front().lower < enough_ && upper_ >= goal.stop_below &&
+         evaluations_ <= goal.max_evaluations) {
     const Cell cell = heap_.front();
-    std::pop_heap(heap_.begin(), heap_.end(),
-                  [](const Cell& a, const Cell& b) { return a.lower > b.lower; });
+    std::pop_heap(heap_.begin(), heap_.end(), Later);
     heap_.pop_back();
-    Expand(cell, goal);
+    Expand(cell);
   }
-  const double lower = heap_.empty() ? upper_ : std::min(upper_, heap_.front().lower);
+  double lower = std::min(upper_, passed_);
+  if (!heap_.empty()) lower = std::min(lower, heap_.front().lower);
   return {lower - kKernelError, upper_ + kKernelError};
 }
 

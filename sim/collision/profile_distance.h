@@ -5,10 +5,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sim/collision/profile_shape.h"
+#include "sim/collision/triangle_descent.h"
 #include "sim/collision/triangle_tree.h"
+#include "sim/collision/wide_shape.h"
 
 namespace ncsim::collision {
 
@@ -40,10 +43,12 @@ struct DistanceGoal {
   int max_evaluations = 200000;  ///< The interval is then wide, but still right.
 };
 
-/// Bounds on the least signed distance, over all points of the mesh's SURFACE, to the solid. Each
-/// bound of a box or a piece of triangle is the best of two: the signed distance changes by no more
-/// than the way; and where it is convex (the whole hull; a slab from outside) it lies above its
-/// tangent plane. Floating-point error is covered by kKernelError.
+/// Bounds on the least signed distance, over all points of the mesh's SURFACE, to the solid. What
+/// bounds a box, a triangle or a piece of one from below is a supporting plane of the solid (or of
+/// each convex part of it, where it lies outside of them all), least over the corners; and for a
+/// piece that may be inside a solid that is not convex, the distance at its middle less its radius.
+/// What bounds the result from above is a point of the mesh; each search starts from that of the
+/// last one, so a result may depend on earlier ones within its goal.
 class ProfileDistance {
  public:
   /// Both outlive this.
@@ -61,44 +66,60 @@ class ProfileDistance {
   /// tool inside it?
   bool Contained(const RevolvedPose& pose) const;
 
+  /// The point of the mesh that the last search's `upper` was seen at; none before the first.
+  const std::optional<Eigen::Vector3d>& witness() const { return witness_; }
+  /// Of the solid, to a point, at the pose of the last search.
+  Eigen::Vector3d NearestOnSurface(const Eigen::Vector3d& p) const;
+
  private:
+  enum class Kind { kNode, kTriangle, kPiece, kConvexPiece };
   struct Cell {
     double lower = 0.0;
-    int node = -1;       ///< A box of the tree,
-    int piece = -1;      ///< or else a piece of a triangle: index into pieces_.
-    bool solve = false;  ///< A piece to be tried as a convex problem; else only halving helps.
+    Kind kind = Kind::kNode;
+    int index = 0;  ///< Of a node (or ~ of a leaf) or a triangle of the tree, or into pieces_.
   };
+  static bool Later(const Cell& a, const Cell& b) { return a.lower > b.lower; }
   struct Local {
     double z = 0.0, r = 0.0;
     Eigen::Vector3d radial;
   };
+  struct Tangent {
+    double distance = 0.0;
+    QuadraticModel model;  ///< Its slope bounds the distance from below.
+  };
   Local ToLocal(const Eigen::Vector3d& p) const;
-  Eigen::Vector3d Gradient(const Local& local, const Eigen::Vector2d& gradient) const;
-  template <typename LeastLinear>
-  double Bound(const Local& local, double distance, const Eigen::Vector2d& gradient, double radius,
-               const LeastLinear& least_linear) const;
-  double BoundNode(const TriangleTree::Node& node) const;
-  double BoundPiece(const TriangleTree::Triangle& piece, double* at_centre, double* radius) const;
-  void PushNode(int node);
-  void PushPiece(const TriangleTree::Triangle& piece, double at_least, bool is_whole);
-  int Keep(const TriangleTree::Triangle& piece);
-  void Expand(const Cell& cell, const DistanceGoal& goal);
-  double Solve(const TriangleTree::Triangle& piece, const DistanceGoal& goal);
-  void Halve(const TriangleTree::Triangle& piece, double lower);
-  void Push(const Cell& cell);
+  double Distance(const Eigen::Vector3d& p) const;
+  void See(const Eigen::Vector3d& p, double distance);
+  void SetUpper(double upper);
+  void Push(double lower, Kind kind, int index);
+  void Expand(const Cell& cell);
+  void ExpandNode(const TriangleTree::Node& node, double at_least);
+  void ExpandLeaf(int leaf, double at_least);
+  void ExpandTriangle(const TriangleTree::Triangle& piece, double lower, bool solve);
+  void PushPiece(const TriangleTree::Triangle& piece, double at_least);
+  Tangent TangentAt(const ConvexProfile& convex, const Eigen::Vector3d& p);
+  double LeastOver(const ConvexProfile& convex, bool is_part, const TriangleTree::Triangle& piece);
+  double LeastOver(const TriangleTree::Triangle& piece);
 
   const ProfileShape* shape_;
   const TriangleTree* tree_;
+  WideShape wide_;
+
+  const WideSolid* solid_ = nullptr;
   RevolvedPose pose_;
+  DistanceGoal goal_;
   double upper_ = 0.0;
+  double enough_ = 0.0;  // a bound that is no lower needs no improving
+  double passed_ = 0.0;  // least bound of what was not looked into
   int evaluations_ = 0;
   std::vector<Cell> heap_;
   std::vector<TriangleTree::Triangle> pieces_;
   std::vector<int> free_pieces_;
+  std::optional<Eigen::Vector3d> witness_;  // a point of the mesh at upper_, or of the last search
 };
 
-/// Covers rounding in the kernel for coordinates up to some metres, mm: chiefly the direction of
-/// gradients within 1e-6 of the surface, over the width of a triangle.
-inline constexpr double kKernelError = 1e-5;
+/// Covers rounding for coordinates up to some metres, and profiles that count as convex with
+/// tangents that turn back by 1e-9 rad, mm.
+inline constexpr double kKernelError = 1e-6;
 
 }  // namespace ncsim::collision

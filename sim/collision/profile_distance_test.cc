@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conformance of the two engines: kernel and FCL against closed forms, and against each other.
+// The kernel against closed forms; kernel_conformance_test has the million poses.
 #include "sim/collision/profile_distance.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/collision/fcl_backend.h"
-#include "sim/collision/tessellate.h"
 #include "sim/collision/test_shapes.h"
 
 namespace ncsim::collision {
@@ -85,54 +83,6 @@ TEST(ProfileDistanceTest, FlatOnFlatIsCheap) {
     EXPECT_GE(d.upper, z - 1e-9);
     EXPECT_LT(d.upper - d.lower, 0.0021) << z;
   }
-}
-
-// Random poses: [lower, upper] holds FCL's distance to the circumscribed mesh, up to the sagitta.
-void AgreeWithFcl(const machine::Profile& profile, const machine::TriangleMesh& mesh, int poses,
-                  double reach, unsigned seed) {
-  const ProfileShape shape(profile);
-  const TriangleTree tree(mesh);
-  ProfileDistance kernel(shape, tree);
-  const FclMesh fcl_tool(Tessellate(profile, kLength));
-  const FclMesh fcl_mesh(mesh);
-  std::mt19937 random(seed);
-  int hits = 0;
-  for (int i = 0; i < poses; ++i) {
-    const Eigen::Isometry3d X = RandomPose(random, reach);
-    const Interval d = kernel.Surface(ToolPose(X, kLength), {});
-    ASSERT_LE(d.lower, d.upper);
-    ASSERT_LT(d.upper - d.lower, 0.0021);
-    const auto fcl = Distance(fcl_tool, fcl_mesh, X, 1e9);
-    const auto hit = Collide(fcl_tool, fcl_mesh, X);
-    ASSERT_TRUE(fcl && hit);
-    if (d.upper > 0.0) {
-      EXPECT_LE(*fcl, d.upper + 1e-6) << i;
-      EXPECT_GE(*fcl, d.lower - kSagitta - 1e-6) << i;
-    }
-    if (d.lower > kSagitta) {
-      EXPECT_FALSE(*hit) << i;
-    }
-    // A mesh that is wholly inside the tool does not meet its surface.
-    if (d.upper < -1e-6) ++hits;
-    if (d.upper < -1e-6 && d.upper > -0.5) {
-      EXPECT_TRUE(*hit) << i;
-    }
-  }
-  EXPECT_GT(hits, poses / 200) << "the poses do not test contact";
-}
-
-TEST(ProfileDistanceTest, AgreesWithFclBallOnSphere) {
-  AgreeWithFcl(BallProfile(6, 60), SphereMesh({0, 0, 0}, 40, 20), 1500, 150, 11);
-}
-TEST(ProfileDistanceTest, AgreesWithFclHolderOnBox) {
-  AgreeWithFcl(
-      PolyProfile(
-          {{20, 0}, {20, 20}, {50, 25}, {50, 31.5}, {60, 31.5}, {60, 22}, {100, 34.9}, {100, 0}}),
-      BoxMesh({-30, -60, -20}, {30, 60, 20}), 1500, 120, 12);
-}
-TEST(ProfileDistanceTest, AgreesWithFclConeOnSphere) {
-  AgreeWithFcl(PolyProfile({{0, 0}, {40, 25}, {40, 0}}), SphereMesh({5, 0, 0}, 30, 14), 1000, 120,
-               13);
 }
 
 TEST(ProfileDistanceTest, EarlyStopsAreCertified) {

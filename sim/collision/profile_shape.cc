@@ -44,6 +44,26 @@ std::vector<ProfileElement> HullElements(const std::vector<ProfileElement>& elem
   return ConvexHull(std::move(points)).elements;
 }
 
+// Greedy, from the tip: a part takes elements for as long as it stays convex when closed.
+std::vector<ConvexProfile> ConvexParts(const std::vector<ProfileElement>& elements) {
+  std::vector<ConvexProfile> parts;
+  std::vector<ProfileElement> closed;
+  machine::Profile part;
+  for (const ProfileElement& e : elements) {
+    part.elements.push_back(e);
+    std::vector<ProfileElement> more = ClosedElements(part);
+    if (closed.empty() || IsConvex(more)) {
+      closed = std::move(more);
+      continue;
+    }
+    parts.emplace_back(closed);
+    part.elements = {e};
+    closed = ClosedElements(part);
+  }
+  parts.emplace_back(closed);
+  return parts;
+}
+
 }  // namespace
 
 machine::Profile ConvexHull(std::vector<Vector2d> points) {
@@ -121,28 +141,13 @@ ProfileChain::ProfileChain(const std::vector<ProfileElement>& elements) {
     }
     elements_.push_back(out);
   }
-  convex_ = IsConvex();
 }
 
-// The tangent turns from "away from the axis" over "along it" to "toward it", never back.
-bool ProfileChain::IsConvex() const {
-  const auto angle = [](const Vector2d& t) { return std::atan2(t.y(), t.x()); };
-  const auto tangent = [](const Vector2d& radial) { return Vector2d(radial.y(), -radial.x()); };
-  double previous = kPi;
+Vector2d ProfileChain::Nearest(double z, double r) const {
+  const Vector2d p(z, r);
+  Vector2d nearest = Vector2d::Zero();
+  double least = std::numeric_limits<double>::infinity();
   for (const Element& e : elements_) {
-    const double start = angle(e.arc ? tangent(e.from) : e.direction);
-    const double end = angle(e.arc ? tangent(e.to) : e.direction);
-    if (start > previous + 1e-9 || end > start + 1e-9) return false;
-    previous = end;
-  }
-  return true;
-}
-
-ProfileChain::Nearest ProfileChain::FindNearest(const Vector2d& p) const {
-  Nearest best;
-  best.squared = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
-    const Element& e = elements_[i];
     Vector2d q;
     if (!e.arc) {
       const double t = std::clamp(e.direction.dot(p - e.start), 0.0, e.length);
@@ -157,15 +162,12 @@ ProfileChain::Nearest ProfileChain::FindNearest(const Vector2d& p) const {
       }
     }
     const double squared = (p - q).squaredNorm();
-    if (squared < best.squared) best = {squared, q, static_cast<int>(i)};
+    if (squared < least) {
+      least = squared;
+      nearest = q;
+    }
   }
-  return best;
-}
-
-Vector2d ProfileChain::Normal(int element, const Vector2d& p) const {
-  const Element& e = elements_[static_cast<std::size_t>(element)];
-  if (e.arc && (p - e.centre).norm() > kTiny) return (p - e.centre).normalized();
-  return {-e.direction.y(), e.direction.x()};
+  return nearest;
 }
 
 bool ProfileChain::Inside(double z, double r) const {
@@ -185,39 +187,21 @@ bool ProfileChain::Inside(double z, double r) const {
 }
 
 double ProfileChain::Distance(double z, double r) const {
-  const double d = std::sqrt(FindNearest({z, r}).squared);
+  const double d = (Vector2d(z, r) - Nearest(z, r)).norm();
   return Inside(z, r) ? -d : d;
-}
-
-ProfileSample ProfileChain::Sample(double z, double r) const {
-  const Vector2d p(z, r);
-  const Nearest nearest = FindNearest(p);
-  const double d = std::sqrt(nearest.squared);
-  const bool inside = Inside(z, r);
-  ProfileSample sample;
-  sample.distance = inside ? -d : d;
-  if (d < 1e-6) {
-    sample.gradient = Normal(nearest.element, nearest.point);
-  } else {
-    sample.gradient = (p - nearest.point) / (inside ? -d : d);
-  }
-  return sample;
 }
 
 ProfileShape::ProfileShape(const machine::Profile& profile) {
   const std::vector<ProfileElement> elements = ClosedElements(profile);
   exact_ = ProfileChain(elements);
-  hull_ = exact_.convex() ? exact_ : ProfileChain(HullElements(elements));
   z_min_ = elements.front().start.x();
   z_max_ = elements.back().end.x();
   for (const ProfileElement& e : elements) {
     r_max_ = std::max({r_max_, e.start.y(), e.end.y()});
     if (e.arc) r_max_ = std::max(r_max_, e.centre.y() + (e.start - e.centre).norm());
-    if (e.end.x() <= e.start.x()) continue;  // a flat face belongs to the slab beside it
-    machine::Profile slab;
-    slab.elements.push_back(e);
-    slabs_.emplace_back(ClosedElements(slab));
   }
+  parts_ = ConvexParts(elements);
+  hull_ = convex() ? parts_.front() : ConvexProfile(HullElements(elements));
   inradius_ =
       -MinimiseOnAxis(z_min_, z_max_, 1e-3, -std::numeric_limits<double>::infinity(), &inradius_z_);
 }

@@ -6,16 +6,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/collision/convex_profile.h"
 #include "sim/machine/tool.h"
 
 namespace ncsim::collision {
-
-/// Signed distance to a solid's surface (negative inside) and its gradient (d/dz, d/dr), of
-/// length 1. On the surface the gradient is the outward normal.
-struct ProfileSample {
-  double distance = 0.0;
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-};
 
 /// A chain of straight elements and of arcs that are convex outward, from the axis to the axis, z
 /// never decreasing. The nearest surface point of any point lies in its own meridian half plane, so
@@ -25,10 +19,10 @@ class ProfileChain {
   ProfileChain() = default;
   explicit ProfileChain(const std::vector<machine::ProfileElement>& elements);
 
+  /// Signed distance to the solid's surface; negative inside.
   double Distance(double z, double r) const;
-  ProfileSample Sample(double z, double r) const;
-  /// True when the solid is convex; its signed distance is then a convex function, inside too.
-  bool convex() const { return convex_; }
+  /// The point (z, r) of the surface that is nearest.
+  Eigen::Vector2d Nearest(double z, double r) const;
 
  private:
   struct Element {
@@ -40,23 +34,14 @@ class ProfileChain {
     double radius = 0.0;        // arc
     Eigen::Vector2d from, to;   // arc: unit, centre to start and to end
   };
-  struct Nearest {
-    double squared = 0.0;
-    Eigen::Vector2d point;
-    int element = -1;
-  };
-  Nearest FindNearest(const Eigen::Vector2d& p) const;
-  Eigen::Vector2d Normal(int element, const Eigen::Vector2d& p) const;
   bool Inside(double z, double r) const;
-  bool IsConvex() const;
 
   std::vector<Element> elements_;
-  bool convex_ = false;
 };
 
-/// A profile with what branch and bound needs: itself, its convex hull, and the convex slabs (an
-/// element each, from the axis out) whose union it is. Outside the solid the distance is the least
-/// of the slabs' distances.
+/// A profile with what branch and bound needs: itself, its convex hull, and the convex parts, as
+/// long as may be, whose union it is. Outside the solid the distance is the least of the parts'
+/// distances; inside it is no more than that.
 class ProfileShape {
  public:
   /// `profile` is not empty. A profile that does not reach the axis at its ends is closed by flat
@@ -64,8 +49,10 @@ class ProfileShape {
   explicit ProfileShape(const machine::Profile& profile);
 
   const ProfileChain& exact() const { return exact_; }
-  const ProfileChain& hull() const { return hull_; }
-  const std::vector<ProfileChain>& slabs() const { return slabs_; }
+  /// One part, which is the hull: then its distance is exact inside, too.
+  bool convex() const { return parts_.size() == 1; }
+  const ConvexProfile& hull() const { return hull_; }
+  const std::vector<ConvexProfile>& parts() const { return parts_; }
   double z_min() const { return z_min_; }
   double z_max() const { return z_max_; }
   double r_max() const { return r_max_; }
@@ -82,8 +69,8 @@ class ProfileShape {
   double MinimiseOnAxis(double z0, double z1, double gap, double stop, double* at) const;
 
   ProfileChain exact_;
-  ProfileChain hull_;
-  std::vector<ProfileChain> slabs_;
+  ConvexProfile hull_;
+  std::vector<ConvexProfile> parts_;
   double z_min_ = 0.0, z_max_ = 0.0, r_max_ = 0.0;
   double inradius_ = 0.0, inradius_z_ = 0.0;
 };

@@ -14,7 +14,7 @@ namespace {
 TEST(ProfileShapeTest, CylinderDistances) {
   const ProfileShape shape(CylinderProfile(0, 40, 6));
   const ProfileChain& c = shape.exact();
-  EXPECT_TRUE(c.convex());
+  EXPECT_TRUE(shape.convex());
   EXPECT_NEAR(c.Distance(20, 10), 4.0, 1e-12);
   EXPECT_NEAR(c.Distance(20, 0), -6.0, 1e-12);
   EXPECT_NEAR(c.Distance(1, 0), -1.0, 1e-12);
@@ -27,7 +27,7 @@ TEST(ProfileShapeTest, CylinderDistances) {
 
 TEST(ProfileShapeTest, BallNoseDistances) {
   const ProfileShape shape(BallProfile(3, 20));
-  EXPECT_TRUE(shape.exact().convex());
+  EXPECT_TRUE(shape.convex());
   // Below z = 3 it is a sphere about (3, 0).
   EXPECT_NEAR(shape.exact().Distance(-1, 0), 1.0, 1e-12);
   EXPECT_NEAR(shape.exact().Distance(0, 4), std::hypot(3, 4) - 3.0, 1e-12);
@@ -38,12 +38,11 @@ TEST(ProfileShapeTest, BallNoseDistances) {
 TEST(ProfileShapeTest, SteppedProfileIsDeeperThanItsSlabs) {
   // Two cylinders of the same radius: their common face is no surface.
   const ProfileShape shape(PolyProfile({{0, 0}, {0, 6}, {20, 6}, {40, 6}, {40, 0}}));
-  EXPECT_TRUE(shape.exact().convex());
+  EXPECT_TRUE(shape.convex());
   EXPECT_NEAR(shape.exact().Distance(20, 0), -6.0, 1e-12);
   const ProfileShape stepped(PolyProfile({{0, 0}, {0, 5}, {10, 5}, {10, 20}, {30, 20}, {30, 0}}));
-  EXPECT_FALSE(stepped.exact().convex());
-  EXPECT_TRUE(stepped.hull().convex());
-  EXPECT_EQ(stepped.slabs().size(), 2u);
+  EXPECT_FALSE(stepped.convex());
+  EXPECT_EQ(stepped.parts().size(), 2u);
   // 30 - z = |(z - 10, 5)|: the top face and the inner corner are equally far.
   EXPECT_NEAR(stepped.inradius(), 10.625, 2e-3);
   EXPECT_NEAR(stepped.inradius_z(), 19.375, 5e-3);
@@ -65,17 +64,20 @@ TEST(ProfileShapeTest, AgreesWithDenseSampling) {
         best = std::min(best, (p - (e.start + k / 2000.0 * (e.end - e.start))).norm());
       }
     }
-    const ProfileSample sample = shape.exact().Sample(p.x(), p.y());
-    EXPECT_NEAR(std::abs(sample.distance), best, 0.02);
-    EXPECT_NEAR(sample.gradient.norm(), 1.0, 1e-9);
-    // The hull encloses: never a greater distance. The slabs: outside the least is the distance.
-    EXPECT_LE(shape.hull().Distance(p.x(), p.y()), sample.distance + 1e-9);
-    if (sample.distance > 0.0) {
-      double slabs = 1e9;
-      for (const ProfileChain& slab : shape.slabs()) {
-        slabs = std::min(slabs, slab.Distance(p.x(), p.y()));
-      }
-      EXPECT_NEAR(slabs, sample.distance, 1e-9);
+    const double distance = shape.exact().Distance(p.x(), p.y());
+    EXPECT_NEAR(std::abs(distance), best, 0.02);
+    // The hull encloses: never a greater distance. The parts: outside the least is the distance.
+    EXPECT_LE(shape.hull().At(p.x(), p.y()).distance, distance + 1e-9);
+    double parts = 1e9;
+    for (const ConvexProfile& part : shape.parts()) {
+      const ConvexProfile::Support support = part.At(p.x(), p.y());
+      parts = std::min(parts, support.distance);
+      EXPECT_NEAR(support.normal.norm(), 1.0, 1e-9);
+    }
+    if (distance > 0.0) {
+      EXPECT_NEAR(parts, distance, 1e-9);
+    } else {
+      EXPECT_GE(parts, distance - 1e-9);
     }
   }
 }

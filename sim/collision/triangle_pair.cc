@@ -9,7 +9,7 @@ namespace ncsim::collision {
 namespace {
 
 using Eigen::Vector3d;
-using Triangle = TriangleTree::Triangle;
+using Triangle = BoxTree::Triangle;
 
 // Ericson, "Real-Time Collision Detection", 2005, 5.1.5: by the region of the triangle's plane.
 Vector3d NearestOnTriangle(const Vector3d& p, const Triangle& t) {

@@ -16,8 +16,10 @@ struct Witness {
 };
 
 /// The mesh's point (b) that is deepest in the solid of revolution, or nearest to it, to 0.001 mm
-/// of depth; and the nearest point of the solid's surface (a). In the mesh's frame.
-Witness FindWitness(const ProfileShape& a, const TriangleTree& b, const RevolvedPose& pose);
+/// of depth; and the nearest point of the solid's surface (a). In the mesh's frame. nullopt: there
+/// is no mesh.
+std::optional<Witness> FindWitness(const ProfileShape& a, const TriangleTree& b,
+                                   const RevolvedPose& pose);
 
 /// With A at X_BA, in the frame of B's link. Two meshes: a point that both surfaces have, or else
 /// where they are nearest. nullopt: not found.

@@ -25,7 +25,7 @@ TEST(WitnessTest, CylinderSideInABoxFace) {
   const ProfileShape cylinder(CylinderProfile(0, 30, 5));
   for (const double face : {4.98, 5.5}) {
     const TriangleTree box(BoxMesh({face, -10, 5}, {20, 10, 25}));
-    const Witness witness = FindWitness(cylinder, box, {{0, 0, 0}, {0, 0, 1}});
+    const Witness witness = *FindWitness(cylinder, box, {{0, 0, 0}, {0, 0, 1}});
     EXPECT_EQ(witness.b.x(), face);
     // Beside the axis the face is further off by y^2 / (2 face).
     EXPECT_LT(std::abs(witness.b.y()), std::sqrt(2.0 * face * kDepthError) + 1e-6);
@@ -44,7 +44,7 @@ TEST(WitnessTest, BallTipOnAPlane) {
     // Tilted by 40 degrees about the ball's centre: the lowest point stays below it.
     const Vector3d axis(std::sin(Radians(40)), 0, std::cos(Radians(40)));
     const Vector3d centre(1, 2, 3 + height);
-    const Witness witness = FindWitness(ball, plane, {centre - 3.0 * axis, axis});
+    const Witness witness = *FindWitness(ball, plane, {centre - 3.0 * axis, axis});
     const double aside = std::sqrt(2.0 * centre.z() * kDepthError);
     EXPECT_NEAR(witness.b.z(), 0.0, 1e-12);
     EXPECT_LT(Norm(witness.b.x() - 1, witness.b.y() - 2), aside);
@@ -57,7 +57,7 @@ TEST(WitnessTest, BallTipOnAPlane) {
 TEST(WitnessTest, AThinPinOnTheAxis) {
   const ProfileShape cylinder(CylinderProfile(0, 30, 5));
   const TriangleTree pin(BoxMesh({-0.1, -0.1, -9}, {0.1, 0.1, 2}));
-  const Witness witness = FindWitness(cylinder, pin, {{0, 0, 0}, {0, 0, 1}});
+  const Witness witness = *FindWitness(cylinder, pin, {{0, 0, 0}, {0, 0, 1}});
   EXPECT_NEAR(witness.b.z(), 2.0, kDepthError);
   EXPECT_NEAR(witness.a.z(), 0.0, 1e-9);
 }
@@ -72,14 +72,14 @@ TEST(WitnessTest, AgreesWithTheKernelOnRandomPoses) {
     const Eigen::Isometry3d X = RandomPose(random, 70);
     const RevolvedPose pose{X.translation(), X.linear().col(2)};
     const Interval least = ProfileDistance(holder, sphere).Surface(pose, {});
-    const Witness witness = FindWitness(holder, sphere, pose);
+    const Witness witness = *FindWitness(holder, sphere, pose);
     const auto distance = [&](const Vector3d& p) {
       const double z = (p - pose.tip).dot(pose.axis);
       return holder.exact().Distance(z, (p - pose.tip - z * pose.axis).norm());
     };
     EXPECT_NEAR(distance(witness.b), least.upper, 3e-3) << i;
     EXPECT_NEAR(distance(witness.a), 0.0, 1e-9) << i;
-    EXPECT_NEAR((witness.a - witness.b).norm(), std::abs(distance(witness.b)), 1e-9) << i;
+    EXPECT_NEAR((witness.a - witness.b).norm(), std::abs(distance(witness.b)), 1e-6) << i;
     inside += least.upper < 0.0 ? 1 : 0;
   }
   EXPECT_GT(inside, 50);
@@ -152,8 +152,8 @@ TEST(WitnessTest, AFindingHasThemInMachineCoordinates) {
       EXPECT_GT(toward, 12.0 - 1e-6);
       EXPECT_LT(Norm(p[0], p[1]), 20.0 + 1e-6);
     }
-    EXPECT_NEAR(finding.points[0][2], tip + 90.0, 1e-6);
-    EXPECT_NEAR(finding.points[1][2], 111.4, 1e-6);
+    EXPECT_NEAR(finding.points[0][2], tip + 90.0, 1e-3);
+    EXPECT_NEAR(finding.points[1][2], 111.4, 1e-3);
     EXPECT_NEAR(tip + 90.0, 111.4, 0.19);  // 1e-3 of the move
   }
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/collision/wide_bounds.h"
+
+#include "sim/collision/wide_bounds_lanes.h"
+
+namespace ncsim::collision {
+
+const WideBounds kWideBaseline = {WideKernel<4>::Boxes, WideKernel<4>::Triangles};
+
+bool HasAvx2() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
+namespace {
+const WideBounds& Best() {
+  static const WideBounds best = HasAvx2() ? kWideAvx2 : kWideBaseline;
+  return best;
+}
+}  // namespace
+
+void BoundBoxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower) {
+  Best().boxes(boxes, solid, enough, lower);
+}
+
+void BoundTriangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
+                    float* lower) {
+  Best().triangles(triangles, solid, enough, lower);
+}
+
+}  // namespace ncsim::collision

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arithmetic of wide_bounds.h for any number of lanes. Every lane is IEEE single precision,
+// operation by operation, so all widths give the same bytes.
+#pragma once
+
+#include "sim/collision/wide_bounds.h"
+
+namespace ncsim::collision {
+namespace {  // each includer compiles its own, for its own processor
+
+template <int N>
+struct Lanes {
+  typedef float Float __attribute__((vector_size(N * sizeof(float))));
+  typedef int Mask __attribute__((vector_size(N * sizeof(int))));
+};
+
+// Of each operation; the longest chain of them, from coordinates to a bound, has less than 40.
+constexpr float kUnit = 6e-8F;
+constexpr float kChain = 40.0F * kUnit;
+// mm. A bound of a triangle so close to the truth is not worth another step.
+constexpr float kNear = 1e-3F;
+
+template <int N>
+class WideKernel {
+ public:
+  using Float = typename Lanes<N>::Float;
+  using Mask = typename Lanes<N>::Mask;
+
+  static void Boxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower) {
+    for (int i = 0; i < kWide; i += N) {
+      const Box box = {FromOrigin(LoadVector(boxes.centre, i), solid),
+                       {LoadVector(boxes.half[0], i), LoadVector(boxes.half[1], i),
+                        LoadVector(boxes.half[2], i)}};
+      Store(Bound(box, solid, enough), lower + i);
+    }
+  }
+
+  static void Triangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
+                        float* lower) {
+    for (int i = 0; i < kWide; i += N) {
+      const Vector a = LoadVector(triangles.corner[0], i);
+      const Vector b = LoadVector(triangles.corner[1], i);
+      const Vector c = LoadVector(triangles.corner[2], i);
+      Store(Bound(Triangle{FromOrigin(a, solid), {Minus(b, a), Minus(c, a)}}, solid, enough),
+            lower + i);
+    }
+  }
+
+ private:
+  struct Vector {
+    Float x, y, z;
+  };
+  // From the solid's origin.
+  struct Box {
+    Vector centre, half[3];
+  };
+  struct Triangle {
+    Vector corner, side[2];
+  };
+  // A point in the solid's half plane, and the direction from the axis to it (0 on the axis); given
+  // from the solid's origin.
+  struct Place {
+    Place(const Vector& v, const Float& spread, const WideSolid& solid) {
+      z = Along(v, solid);
+      Vector a = Across(v, z, solid);
+      // Again: what rounding left along the axis may be much of a short vector.
+      a = Across(a, Along(a, solid), solid);
+      const Float length = Root(Dot(a, a));
+      const Mask off_axis = length > 1e-6F;
+      const Float zero = length - length;
+      const Float inverse = off_axis ? 1.0F / length : zero;
+      r = off_axis ? length : zero;
+      radial = {a.x * inverse, a.y * inverse, a.z * inverse};
+      error = (SumOfSizes(v) + spread + solid.reach) * kChain + solid.rounding;
+    }
+    Float z, r, error;
+    Vector radial;
+  };
+  // A plane that supports a convex part, and how the distance bends there: along the profile, 0
+  // beside a line.
+  struct Plane {
+    Float distance, normal_z, normal_r, curvature;
+  };
+
+  static Vector LoadVector(const float (&v)[3][kWide], int i) {
+    return {*reinterpret_cast<const Float*>(v[0] + i), *reinterpret_cast<const Float*>(v[1] + i),
+            *reinterpret_cast<const Float*>(v[2] + i)};
+  }
+  static void Store(const Float& value, float* p) {
+    for (int k = 0; k < N; ++k) p[k] = value[k];
+  }
+  static Float Size(const Float& a) { return a < 0.0F ? -a : a; }
+  static Float SumOfSizes(const Vector& v) { return Size(v.x) + Size(v.y) + Size(v.z); }
+  static Float Least(const Float& a, const Float& b) { return a < b ? a : b; }
+  static Float Most(const Float& a, const Float& b) { return b > a ? b : a; }
+  static bool Any(const Mask& mask) {
+    int any = 0;
+    for (int k = 0; k < N; ++k) any |= mask[k];
+    return any != 0;
+  }
+  static Vector FromOrigin(const Vector& p, const WideSolid& solid) {
+    return {p.x - solid.origin[0], p.y - solid.origin[1], p.z - solid.origin[2]};
+  }
+  static Vector Minus(const Vector& a, const Vector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  static Float Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  static Float Along(const Vector& v, const WideSolid& solid) {
+    return v.x * solid.axis[0] + v.y * solid.axis[1] + v.z * solid.axis[2];
+  }
+  static Vector Across(const Vector& v, const Float& z, const WideSolid& solid) {
+    return {v.x - z * solid.axis[0], v.y - z * solid.axis[1], v.z - z * solid.axis[2]};
+  }
+  static Float Root(const Float& a) {
+    Float root;
+    for (int k = 0; k < N; ++k) root[k] = __builtin_sqrtf(a[k]);
+    return root;
+  }
+
+  // The supporting plane of a convex part that is furthest from the place.
+  static Plane Furthest(const Place& place, const WidePart& part) {
+    const Float zero = place.z - place.z;
+    Plane best = {zero - 1e30F, zero, zero, zero};
+    Float length = zero + 1.0F;  // of the normal
+    for (int i = 0; i < part.line_count; ++i) {
+      const WideLine& line = part.lines[i];
+      const Float distance = place.z * line.normal_z + place.r * line.normal_r - line.offset;
+      const Mask better = distance > best.distance;
+      best.distance = better ? distance : best.distance;
+      best.normal_z = better ? zero + line.normal_z : best.normal_z;
+      best.normal_r = better ? zero + line.normal_r : best.normal_r;
+    }
+    Mask round_is_best = zero > 0.0F;
+    for (int i = 0; i < part.round_count; ++i) {
+      const WideRound& round = part.rounds[i];
+      const Float z = place.z - round.z;
+      const Float r = place.r - round.r;
+      const Float norm = Root(z * z + r * r);
+      const Float distance = norm - round.radius;
+      const Mask better = (distance > best.distance) & (norm > 1e-6F) &
+                          (round.from_r * z - round.from_z * r >= 0.0F) &
+                          (r * round.to_z - z * round.to_r >= 0.0F);
+      best.distance = better ? distance : best.distance;
+      best.normal_z = better ? z : best.normal_z;
+      best.normal_r = better ? r : best.normal_r;
+      length = better ? norm : length;
+      round_is_best = round_is_best | better;
+    }
+    const Float inverse = 1.0F / length;
+    best.normal_z = best.normal_z / length;
+    best.normal_r = best.normal_r / length;
+    best.curvature = round_is_best ? inverse : zero;
+    return best;
+  }
+
+  static Vector Slope(const Plane& plane, const Place& place, const WideSolid& solid) {
+    return {plane.normal_z * solid.axis[0] + plane.normal_r * place.radial.x,
+            plane.normal_z * solid.axis[1] + plane.normal_r * place.radial.y,
+            plane.normal_z * solid.axis[2] + plane.normal_r * place.radial.z};
+  }
+
+  // Two planes: about the centre, and about the point of the box that is nearest to the foot of the
+  // centre on the solid.
+  static Float BoundPart(const Box& box, const WideSolid& solid, const WidePart& part,
+                         float enough) {
+    const Float spread =
+        SumOfSizes(box.half[0]) + SumOfSizes(box.half[1]) + SumOfSizes(box.half[2]);
+    const Float zero = spread - spread;
+    const Place middle(box.centre, spread, solid);
+    const Plane plane = Furthest(middle, part);
+    const Vector g = Slope(plane, middle, solid);
+    const Float along[3] = {Dot(g, box.half[0]), Dot(g, box.half[1]), Dot(g, box.half[2])};
+    const Float lower =
+        plane.distance - middle.error - (Size(along[0]) + Size(along[1]) + Size(along[2]));
+    const Mask open = lower < enough;
+    if (!Any(open)) return lower;
+    Float at[3];
+    Vector p = box.centre;
+    for (int k = 0; k < 3; ++k) {
+      const Vector& half = box.half[k];
+      const Float foot = -plane.distance * along[k] / Most(Dot(half, half), zero + 1e-30F);
+      at[k] = Least(Most(foot, zero - 1.0F), zero + 1.0F);
+      p = {p.x + at[k] * half.x, p.y + at[k] * half.y, p.z + at[k] * half.z};
+    }
+    const Place near(p, spread, solid);
+    const Plane other = Furthest(near, part);
+    const Vector h = Slope(other, near, solid);
+    Float least = other.distance - near.error;
+    for (int k = 0; k < 3; ++k) {
+      const Float slope = Dot(h, box.half[k]);
+      least = least - at[k] * slope - Size(slope);
+    }
+    return open ? Most(lower, least) : lower;
+  }
+
+  // Newton's method in barycentric coordinates, as TriangleDescent does it.
+  static Float BoundPart(const Triangle& t, const WideSolid& solid, const WidePart& part,
+                         float enough) {
+    constexpr int kSteps = 4;
+    const Float zero = t.corner.x - t.corner.x;
+    const Float spread = SumOfSizes(t.side[0]) + SumOfSizes(t.side[1]);
+    Float a = zero + 1.0F / 3.0F;
+    Float b = a;
+    Float lower = zero - 1e30F;
+    Float upper = zero + 1e30F;
+    Mask open = zero < 1.0F;  // a lane takes its steps whatever its neighbours do
+    for (int step = 0;; ++step) {
+      const Vector p = {t.corner.x + a * t.side[0].x + b * t.side[1].x,
+                        t.corner.y + a * t.side[0].y + b * t.side[1].y,
+                        t.corner.z + a * t.side[0].z + b * t.side[1].z};
+      const Place place(p, spread, solid);
+      const Plane plane = Furthest(place, part);
+      const Vector g = Slope(plane, place, solid);
+      const Float ga = Dot(g, t.side[0]);
+      const Float gb = Dot(g, t.side[1]);
+      const Float bound =
+          plane.distance - place.error - a * ga - b * gb + Least(zero, Least(ga, gb));
+      lower = open ? Most(lower, bound) : lower;
+      upper = Least(upper, plane.distance);
+      // What is left may be below `enough` in truth.
+      open = open & (lower < enough) & (upper - lower > 2.0F * place.error + kNear);
+      if (step == kSteps || !Any(open)) return lower;
+      const Vector tangent = {plane.normal_z * place.radial.x - plane.normal_r * solid.axis[0],
+                              plane.normal_z * place.radial.y - plane.normal_r * solid.axis[1],
+                              plane.normal_z * place.radial.z - plane.normal_r * solid.axis[2]};
+      const Vector around = {solid.axis[1] * place.radial.z - solid.axis[2] * place.radial.y,
+                             solid.axis[2] * place.radial.x - solid.axis[0] * place.radial.z,
+                             solid.axis[0] * place.radial.y - solid.axis[1] * place.radial.x};
+      const Float turn = plane.normal_r / Most(place.r, zero + 1e-6F);
+      const Float most = plane.curvature > 0.0F ? plane.curvature : turn;
+      const Float ta = Dot(tangent, t.side[0]);
+      const Float tb = Dot(tangent, t.side[1]);
+      const Float ua = Dot(around, t.side[0]);
+      const Float ub = Dot(around, t.side[1]);
+      const Quadratic q = {ga, gb, most * ga * ga + plane.curvature * ta * ta + turn * ua * ua,
+                           most * ga * gb + plane.curvature * ta * tb + turn * ua * ub,
+                           most * gb * gb + plane.curvature * tb * tb + turn * ub * ub};
+      Step(q, &a, &b);
+    }
+  }
+
+  // Slope and bend of a function of (a, b) about a place.
+  struct Quadratic {
+    Float a, b, aa, ab, bb;
+  };
+
+  static void Step(const Quadratic& q, Float* a, Float* b) {
+    const Float zero = *a - *a;
+    const Float determinant = q.aa * q.bb - q.ab * q.ab;
+    const Float inner_a = *a + (q.ab * q.b - q.bb * q.a) / determinant;
+    const Float inner_b = *b + (q.ab * q.a - q.aa * q.b) / determinant;
+    const Mask inside = (determinant > 1e-6F * q.aa * q.bb) & (inner_a >= 0.0F) &
+                        (inner_b >= 0.0F) & (inner_a + inner_b <= 1.0F);
+    Float best_a = *a;
+    Float best_b = *b;
+    Float least = zero;
+    constexpr float kCorner[4][2] = {{0, 0}, {1, 0}, {0, 1}, {0, 0}};
+    for (int k = 0; k < 3; ++k) {
+      const Float from_a = kCorner[k][0] - *a;
+      const Float from_b = kCorner[k][1] - *b;
+      const float way_a = kCorner[k + 1][0] - kCorner[k][0];
+      const float way_b = kCorner[k + 1][1] - kCorner[k][1];
+      const Float slope = way_a * (q.a + q.aa * from_a + q.ab * from_b) +
+                          way_b * (q.b + q.ab * from_a + q.bb * from_b);
+      const Float bend = way_a * way_a * q.aa + 2.0F * way_a * way_b * q.ab + way_b * way_b * q.bb;
+      // Without a bend, to one of the ends.
+      const Float t = Least(Most(-slope / Most(bend, zero + 1e-30F), zero), zero + 1.0F);
+      const Float da = from_a + t * way_a;
+      const Float db = from_b + t * way_b;
+      const Float value =
+          da * q.a + db * q.b + 0.5F * (q.aa * da * da + 2.0F * q.ab * da * db + q.bb * db * db);
+      const Mask better = value < least;
+      least = better ? value : least;
+      best_a = better ? *a + da : best_a;
+      best_b = better ? *b + db : best_b;
+    }
+    *a = inside ? inner_a : best_a;
+    *b = inside ? inner_b : best_b;
+  }
+
+  template <typename Shape>
+  static Float Bound(const Shape& shape, const WideSolid& solid, float enough) {
+    Float bound = BoundPart(shape, solid, solid.parts[0], enough);
+    for (int i = 1; i < solid.part_count; ++i) {
+      bound = Least(bound, BoundPart(shape, solid, solid.parts[i], enough));
+    }
+    if (solid.hull == nullptr || !Any(bound < 0.0F)) return bound;
+    return bound < 0.0F ? BoundPart(shape, solid, *solid.hull, enough) : bound;
+  }
+};
+
+}  // namespace
+}  // namespace ncsim::collision
