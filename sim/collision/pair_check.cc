@@ -257,7 +257,8 @@ void PairCheck::OnContact(const Judgement& judgement, const SweepResult& result)
     if (run.rule != judgement.rule || run.severity != severity) Close(&contact_);
   }
   if (!contact_.open) {
-    Open(ContactRun::Kind::kContact, judgement.rule, severity, result.first, &contact_);
+    const PathPoint onset = sweep_.Onset(motion(), result.first, judgement.watch.contact);
+    Open(ContactRun::Kind::kContact, judgement.rule, severity, onset, &contact_);
     contact_.run.tolerance = judgement.tolerance;
     if (engine_->has_depth()) contact_.run.least = std::min(0.0, result.least.upper);
   }

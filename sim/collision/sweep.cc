@@ -18,6 +18,8 @@ constexpr double kCutOut = 0.9;           // of what a clearance covers if the t
 constexpr std::size_t kMemory = 20000;    // poses of a pair
 constexpr double kFarthest = 1e5;         // mm, worth looking ahead
 constexpr double kFirstContact = 1e-3;    // of the motion
+constexpr double kOnset = 1e-6;           // of the motion, where it begins
+constexpr double kOnsetGap = 1e-5;        // mm
 constexpr double kDepthTolerance = 6e-3;  // mm
 constexpr int kRefinements = 4000;        // queries a motion for the sake of a number only
 constexpr int kDepthQueries = 1000;       // a motion
@@ -434,6 +436,24 @@ std::optional<Interval> PairSweep::At(const Motion& motion, const PathPoint& poi
   goal.max_evaluations = kDepthEvaluations;
   ++queries_;
   return engine_->Solid(Pose(motion, point), goal);
+}
+
+PathPoint PairSweep::Onset(const Motion& motion, const PathPoint& first, double contact) {
+  const auto touches = [&](double s) {
+    DistanceGoal goal;
+    goal.gap = kOnsetGap;
+    ++queries_;
+    const auto clearance = engine_->Clearance(Pose(motion, {s, first.lag}), goal);
+    return clearance.has_value() && clearance->upper <= contact + 2.0 * kOnsetGap;
+  };
+  double clear = std::max(0.0, first.s - kFirstContact);
+  double hit = first.s;
+  if (touches(clear) || !touches(hit)) return first;
+  while (hit - clear > kOnset) {
+    const double middle = 0.5 * (clear + hit);
+    (touches(middle) ? hit : clear) = middle;
+  }
+  return {hit, first.lag};
 }
 
 Interval PairSweep::Deepest(const Motion& motion, const PathPoint& contact, bool with_lag,

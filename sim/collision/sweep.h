@@ -81,6 +81,9 @@ class PairSweep {
   /// As Check, but leaves the pair where it was before the motion.
   SweepResult Probe(const motion::Motion& motion, const Watch& watch);
 
+  /// Where the contact at `first` begins, to 1e-6 of the motion, if that is within 1e-3 before it.
+  PathPoint Onset(const motion::Motion& motion, const PathPoint& first, double contact);
+
   /// Clearance (negative) at the deepest pose of a motion that is known to be in `contact`, to 0.01
   /// mm: at lag 0, or with all lags. `known` is the depth that is not worth looking for. `budget`
   /// counts down poses; without one left, only the middle and the end are looked at. `upper` is
