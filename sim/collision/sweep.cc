@@ -373,7 +373,7 @@ bool PairSweep::Accept(const Span& span, const Span& whole, const Interval& clea
 void PairSweep::Split(const Span& span, double clearance, double bound, Sweep* sweep) {
   const double half = 0.5 * (span.s1 - span.s0);
   const double part = kCutOut * (clearance - std::max(sweep->watch.contact, Need(*sweep))) / bound;
-  if (span.lag0 == span.lag1 && part > 0.1) {
+  if (part > 0.1) {
     const PathPoint middle = Middle(span);
     const Span clear{middle.s - part * half, middle.s + part * half, span.lag0, span.lag1};
     const double proven =
