@@ -108,8 +108,8 @@ std::vector<GrowthSeries> PrintGrowth(const ImpellerSpec& spec, const GrowthPlan
 }
 
 bool WriteGrowthSvg(const std::vector<GrowthSeries>& series, const std::string& path) {
-  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Short(2 * kWidth) +
-                     "\" height=\"" + Short(2 * kHeight) +
+  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
+                     Short(2 * kWidth + kLeft) + "\" height=\"" + Short(2 * kHeight) +
                      "\" font-family=\"sans-serif\" font-size=\"11\">\n"
                      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
   int panel = 0;
