@@ -82,4 +82,75 @@ TEST(BatchTest, WhatCutsKnowsTheWindowsBefore) {
   }
 }
 
+// The flutes go through a window before holder and shank do: what these hit before the first cut
+// was the whole blank all the same.
+TEST(BatchTest, TheBlankIsWholeUntilItIsCut) {
+  for (const std::size_t window : {1, 2, 4096}) {
+    Rig holder;
+    holder.AddBox("blank", BodyKind::kStock, {-62, -32, -50}, {2, 32, 3});
+    holder.Start(-30, 45, 20);
+    holder.Rapid(-30, 45, -100);  // the holder goes 7 mm into it
+    holder.Rapid(-30, 45, 20);
+    holder.Rapid(-30, 0, 20);
+    holder.Feed(-30, 0, 1);  // the first cut
+    const CollisionResult result = holder.Run(window);
+    ASSERT_FALSE(result.findings.empty()) << window;
+    EXPECT_EQ(result.findings[0].where.line, 1);
+    EXPECT_EQ(result.findings[0].severity, Severity::kError) << Words(result);
+
+    Rig shank;
+    shank.AddBox("blank", BodyKind::kStock, {0, -30, 40}, {50, 30, 60});
+    shank.Start(-30, 0, 0);
+    shank.Rapid(20, 0, 0);  // no wider than the cutter, and through the blank
+    shank.Rapid(-30, 0, 0);
+    shank.Rapid(-30, 0, 40);
+    shank.Feed(10, 0, 40);  // the first cut
+    EXPECT_THAT(Of(shank.Run(window), Rule::kStockContact), SizeIs(1)) << window;
+  }
+}
+
+// As deep as the feeds went that took the flutes in, on any later rapid, and wherever the windows
+// end.
+TEST(BatchTest, RapidsMayBeAsDeepAsTheFeedsBefore) {
+  for (const std::size_t window : {1, 2, 3, 4096}) {
+    for (int way = 0; way < 4; ++way) {
+      Rig rig;
+      rig.check().gouge = machine::GougeMode::kOff;
+      rig.AddBox("part", BodyKind::kPart, {-60, -30, -50}, {0, 30, 0});
+      rig.Start(-30, 0, 20);
+      rig.Feed(-30, 0, 1);
+      rig.Feed(-30, 0, -3);
+      rig.Feed(-30, 0, -1);
+      if (way == 1) rig.Rapid(-20, 0, -1);
+      if (way == 2) rig.Rapid(-30, 0, -0.5);
+      rig.Rapid(way == 1 ? -20 : -30, 0, way == 3 ? -3.3 : -2.5);
+      rig.Rapid(-30, 0, 50);
+      const CollisionResult result = rig.Run(window);
+      EXPECT_THAT(result.findings, SizeIs(way == 3 ? 1 : 0))
+          << "way " << way << ", window " << window << "\n"
+          << Words(result);
+    }
+  }
+}
+
+// A run of contact under one rule goes on under another: that one is told of where it begins.
+TEST(BatchTest, AnotherRuleBeginsWhereItBegins) {
+  for (const std::size_t window : {1, 4096}) {
+    Rig rig;
+    rig.AddBox("part", BodyKind::kPart, {-60, -30, -50}, {0, 30, 0});
+    rig.Start(-200, 0, -5);
+    rig.Feed(-80, 0, -5);
+    rig.Feed(-80, 60, -5);
+    rig.Feed(20, -60, -5);   // a gouge across the corner
+    rig.Rapid(-80, 60, -5);  // and back
+    const CollisionResult result = rig.Run(window);
+    const std::vector<Finding> rapids = Of(result, Rule::kRapidContact);
+    ASSERT_THAT(rapids, SizeIs(1)) << Words(result);
+    // The way is x = 20 - 100 s, y = -60 + 120 s; it meets the face y = -30 left of the corner. The
+    // flutes (radius 5) are 0.1 mm in it at y = -34.9.
+    EXPECT_NEAR(rapids[0].axes[0].second, -0.917, 1e-3) << window;
+    EXPECT_NEAR(rapids[0].axes[1].second, -34.9, 1e-3) << window;
+  }
+}
+
 }  // namespace ncsim::collision

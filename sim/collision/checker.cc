@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "sim/collision/batch.h"
@@ -172,9 +173,16 @@ void CollisionChecker::State::Turn() {
 }
 
 void CollisionChecker::State::Complete() {
-  runner.Wait();
-  Tell(&running, &findings);
-  running.clear();
+  Batch done;
+  // Whatever is thrown, there is nothing half checked to be told.
+  try {
+    runner.Wait();
+  } catch (...) {
+    running.clear();
+    throw;
+  }
+  done.swap(running);
+  Tell(&done, &findings);
 }
 
 CollisionChecker::CollisionChecker(const machine::Machine& machine, const machine::Scene& scene,
@@ -219,8 +227,12 @@ CollisionResult CollisionChecker::Finish() {
       }
     }
   }
+  // By motion, then in an order that no window has a part in.
   std::stable_sort(state_->findings.begin(), state_->findings.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+                   [](const auto& a, const auto& b) {
+                     return std::tie(a.first, a.second.rule, a.second.bodies) <
+                            std::tie(b.first, b.second.rule, b.second.bodies);
+                   });
   for (auto& [number, finding] : state_->findings) result.findings.push_back(std::move(finding));
   state_->findings.clear();
   return result;

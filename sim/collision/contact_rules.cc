@@ -34,17 +34,21 @@ double RapidReference::OnRapid(int cycle, double start_depth) {
     feed_depth_ = 0.0;
   }
   if (start_depth <= 0.0) depth_ = 0.0;
+  return Kept(cycle);
+}
+
+double RapidReference::OnFeedsBefore(int cycle, double depth) {
+  depth_ = std::max(depth_, depth);
+  if (cycle > 0 && cycle == cycle_) cycle_depth_ = std::max(cycle_depth_, depth);
+  return Kept(cycle);
+}
+
+double RapidReference::Kept(int cycle) const {
   return std::max(depth_, cycle > 0 && cycle == cycle_ ? cycle_depth_ : 0.0);
 }
 
-double RapidReference::OnFeedsBefore(double depth) {
-  depth_ = std::max(depth_, depth);
-  if (cycle_ > 0) cycle_depth_ = std::max(cycle_depth_, depth);
-  return std::max(depth_, cycle_depth_);
-}
-
 bool Uncut(const BlankState& blank, std::uint64_t number, double s) {
-  return !blank.cut || (blank.motion == number && s < blank.s);
+  return !blank.cut || number < blank.motion || (number == blank.motion && s < blank.s);
 }
 
 Judgement Judge(PairRole role, const motion::Motion& motion, const machine::CheckSettings& settings,

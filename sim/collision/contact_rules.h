@@ -27,14 +27,18 @@ class RapidReference {
   void OnFeed(double depth);
   /// Before each rapid: the depth at its start. Returns the depth that it may keep.
   double OnRapid(int cycle, double start_depth);
-  /// The feeds before the rapid of the last OnRapid turn out to have been this deep. Returns what
-  /// it may keep.
-  double OnFeedsBefore(double depth);
+  /// After OnRapid: the feeds that led into the part turn out to have been this deep. Returns what
+  /// the rapid may keep.
+  double OnFeedsBefore(int cycle, double depth);
+  /// Has the tool been in the part at the start of every rapid since the last feed?
+  bool inside() const { return depth_ > 0.0; }
   /// True when OnRapid's answer depends on the depth at the start of the rapid.
   bool wants_start() const { return after_feed_ || depth_ > 0.0; }
   void Reset() { *this = RapidReference(); }
 
  private:
+  double Kept(int cycle) const;
+
   bool after_feed_ = false;
   double feed_depth_ = 0.0;
   double depth_ = 0.0;

@@ -32,8 +32,11 @@ class CutPolygon {
     const bool first = a.squaredNorm() >= b.squaredNorm();
     e1_ = (first ? a : b).normalized();
     e2_ = first ? b : a;
-    e2_ -= e2_.dot(e1_) * e1_;
-    if (e2_.norm() > 0.0) e2_.normalize();
+    // Again, for a sliver: what rounding leaves of e1 would lift points off the triangle.
+    for (int i = 0; i < 3; ++i) {
+      e2_ -= e2_.dot(e1_) * e1_;
+      if (e2_.norm() > 0.0) e2_.normalize();
+    }
     count_ = 3;
     points_[0].setZero();
     points_[1] = {a.dot(e1_), a.dot(e2_)};
@@ -81,6 +84,8 @@ class CutPolygon {
     std::array<Eigen::Vector2d, 32> kept;
     std::size_t kept_count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
+      // Rounding on a degenerate polygon; left as it is, it still holds what it must.
+      if (kept_count + 2 > kept.size()) return;
       const Eigen::Vector2d& p = points_[i];
       const Eigen::Vector2d& q = points_[(i + 1) % count_];
       const double at_p = g.dot(p - x) - limit;

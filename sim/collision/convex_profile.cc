@@ -78,13 +78,18 @@ ConvexProfile::Support ConvexProfile::At(double z, double r) const {
   }
   for (const Round& round : rounds_) {
     const Vector2d v = p - round.centre;
-    if (Turn(round.from, v) < -slack || Turn(v, round.to) < -slack) continue;
+    const double after = Turn(round.from, v);
+    const double before = Turn(v, round.to);
+    if (after < -slack || before < -slack) continue;
     const double length = v.norm();
-    if (length - round.radius <= best.distance) continue;
-    // At the centre itself every normal of the sector is as good.
     const bool centred = length < std::numeric_limits<double>::min();
-    best = {length - round.radius, centred ? round.from : Vector2d(v / length),
-            1.0 / std::max(length, 1e-9)};
+    // Near a corner or the centre the direction of v is rounding: only normals of the sector make
+    // lines that support the solid.
+    Vector2d normal = round.from;
+    if (!centred && after >= 0.0) normal = before >= 0.0 ? Vector2d(v / length) : round.to;
+    const double distance = normal.dot(v) - round.radius;
+    if (distance <= best.distance) continue;
+    best = {distance, normal, 1.0 / std::max(length, 1e-9)};
   }
   return best;
 }

@@ -225,7 +225,7 @@ TEST(KernelConformanceTest, CylinderAndBoxOnALattice) {
     } else {
       tally.Count(d, -kRadius, goal);
       EXPECT_LE(d.lower, 0.0);
-      EXPECT_LE(d.upper, kKernelError);
+      EXPECT_LE(d.upper, kKernelError + goal.gap);
     }
   }
   tally.Expect("cylinder and box on a lattice", 1e-12);
@@ -341,12 +341,13 @@ TEST(KernelConformanceTest, BruteForceInDouble) {
         DistanceGoal goal = Goal(i);
         if (tool.parts.size() > 1) goal.gap = std::max(goal.gap, 2e-3);
         const Interval d = kernel.Surface(pose, goal);
-        if (truth >= 0.0 || tool.parts.size() == 1) {
+        // Between two parts, where none is nearer than 0, it may be deep in their union.
+        if (truth > 1e-9 || tool.parts.size() == 1) {
           tally.Add(d, truth, goal);
         } else {
           tally.Count(d, truth, goal);
           EXPECT_LE(d.lower, truth) << tool.name << " and " << named.name;
-          EXPECT_LE(d.upper, kKernelError);
+          EXPECT_LE(d.upper, kKernelError + goal.gap);
         }
       }
       tally.Expect(std::string(tool.name) + " and " + named.name, 1e-8);

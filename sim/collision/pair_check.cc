@@ -65,6 +65,10 @@ PairOutcome PairCheck::Run() {
     ++at_;
   }
   CloseRuns();
+  if (feeds_unknown()) {
+    const bool inside = DepthAt((*travel_)[travel_->size() - 1], 1.0) > 0.0;
+    carry_->feeds = inside ? DepthOfFeeds() : 0.0;
+  }
   outcome_.least = sweep_.least();
   outcome_.least_where = sweep_.least_where();
   // What was handed in was seen elsewhere.
@@ -90,6 +94,7 @@ bool PairCheck::Cross() {
   if (!judgement.checked || carry_->warned) return false;
   Watch& watch = judgement.watch;
   if (watch.clearance > 0.0) watch.rounding = travel_->corner_rounding();
+  if (cutting()) watch.track = false;  // of rapids no depth is told
   std::size_t end = sweep_.has_least() ? CrossSwept(watch) : at_;
   if (end == at_ && cross_.Ready()) {
     end = sweep_.Cross(*travel_, bound_, at_, watch).end;
@@ -153,11 +158,15 @@ void PairCheck::OnMotion() {
   if (!judgement.checked || carry_->warned) {
     CloseRuns();
     sweep_.Forget();
-    if (cutting()) carry_->reference.OnFeed(0.0);
+    if (feeds_unknown()) {
+      carry_->reference.OnFeed(0.0);
+      feeds_end_ = at_ + 1;
+    }
     return;
   }
   judgement.watch.run_least = near_.open ? near_.run.least : kInfinity;
-  judgement.watch.find_first = !contact_.open || pair().role == PairRole::kOtherBlank;
+  judgement.watch.find_first =
+      !contact_.open || blank_ != nullptr || contact_.run.rule != judgement.rule;
   if (ClearWhenSwept(judgement.watch)) {
     CloseRuns();
     return;
@@ -177,16 +186,18 @@ void PairCheck::OnMotion() {
   }
 }
 
+// No gouge was asked for, so nobody has looked how deep the feeds went.
+bool PairCheck::feeds_unknown() const {
+  return pair().role == PairRole::kFlutesPart && setup_->settings.gouge == machine::GougeMode::kOff;
+}
+
 SweepResult PairCheck::Sweep(Judgement* judgement) {
-  SweepResult result = sweep_.Check(motion(), judgement->watch);
-  const bool feeds_unknown = pair().role == PairRole::kFlutesPart && IsRapid(motion()) &&
-                             setup_->settings.gouge == machine::GougeMode::kOff;
-  if (!result.contact || !feeds_unknown) return result;
-  // No gouge was asked for, so nobody knows yet how deep the feeds were that led here.
-  const double depth = DepthOfFeedsBefore();
-  if (depth <= 0.0) return result;
+  const SweepResult result = sweep_.Check(motion(), judgement->watch);
+  if (!result.contact || !feeds_unknown() || !carry_->reference.inside()) return result;
+  const double depth = DepthOfFeeds();
   const Watch asked = judgement->watch;
-  judgement->watch = JudgeMotion(carry_->reference.OnFeedsBefore(depth)).watch;
+  judgement->watch =
+      JudgeMotion(carry_->reference.OnFeedsBefore(motion().facts.cycle, depth)).watch;
   if (judgement->watch.contact >= asked.contact) return result;
   judgement->watch.run_least = asked.run_least;
   judgement->watch.find_first = asked.find_first;
@@ -196,25 +207,28 @@ SweepResult PairCheck::Sweep(Judgement* judgement) {
 // The depth that a rapid may keep: it is where the feed before it left the tool.
 double PairCheck::AllowedDepth() {
   if (!cutting() || !IsRapid(motion())) return 0.0;
-  double start = 0.0;
-  if (carry_->reference.wants_start()) {
-    const std::optional<Interval> at = sweep_.At(motion(), {0.0, 0.0}, 0.0);
-    if (at.has_value() && std::isfinite(at->upper)) start = std::max(0.0, -at->upper);
-  }
+  const double start = carry_->reference.wants_start() ? DepthAt(motion(), 0.0) : 0.0;
   return carry_->reference.OnRapid(motion().facts.cycle, start);
 }
 
-// Of the feeds of this run of motions that lead to the rapid at hand.
-double PairCheck::DepthOfFeedsBefore() {
+double PairCheck::DepthAt(const motion::Motion& motion, double s) {
+  const std::optional<Interval> at = sweep_.At(motion, {s, 0.0}, 0.0);
+  return at.has_value() && std::isfinite(at->upper) ? std::max(0.0, -at->upper) : 0.0;
+}
+
+// Of the last feeds, back to the one that came into the part from outside.
+double PairCheck::DepthOfFeeds() {
   double deepest = 0.0;
   int budget = OpenRun().depth_budget;
-  for (std::size_t i = at_; i > 0 && !IsRapid((*travel_)[i - 1]); --i) {
+  for (std::size_t i = feeds_end_; i > 0; --i) {
+    const motion::Motion& feed = (*travel_)[i - 1];
+    if (IsRapid(feed)) return deepest;
     PathPoint at;
-    const Interval depth =
-        sweep_.Deepest((*travel_)[i - 1], {0.5, 0.0}, false, -deepest, &budget, &at);
+    const Interval depth = sweep_.Deepest(feed, {0.5, 0.0}, false, -deepest, &budget, &at);
     if (std::isfinite(depth.upper)) deepest = std::max(deepest, -depth.upper);
+    if (DepthAt(feed, 0.0) <= 0.0) return deepest;
   }
-  return deepest;
+  return std::max(deepest, carry_->feeds);
 }
 
 void PairCheck::OnSpindleStopped() {

@@ -38,6 +38,9 @@ struct PairCarry {
   /// The least clearance seen so far: above it, no number is worth working out.
   double least = std::numeric_limits<double>::infinity();
   RapidReference reference;
+  /// With no gouge asked for: how deep the feeds went that took the flutes into the part, where the
+  /// run ended; mm.
+  double feeds = 0.0;
   /// The pair has said what there is to say about the cut blank, for this tool.
   bool warned = false;
 };
@@ -78,7 +81,9 @@ class PairCheck {
   void Passed(std::size_t end);
   void OnSpindleStopped();
   double AllowedDepth();
-  double DepthOfFeedsBefore();
+  bool feeds_unknown() const;
+  double DepthAt(const motion::Motion& motion, double s);
+  double DepthOfFeeds();
   void OnContact(const Judgement& judgement, const SweepResult& result);
   void OnClear(const Judgement& judgement, const SweepResult& result);
   void OnFirstCut(const SweepResult& result);
@@ -94,7 +99,8 @@ class PairCheck {
   const PairSetup* setup_;
   const motion::Travel* travel_;
   std::uint64_t number_;
-  std::size_t at_ = 0;  // the motion at hand
+  std::size_t at_ = 0;         // the motion at hand
+  std::size_t feeds_end_ = 0;  // behind the last feed of the run
   BlankState* blank_;
   PairCarry* carry_;
   std::unique_ptr<PairEngine> engine_;

@@ -15,6 +15,9 @@ using Eigen::Vector3d;
 using Triangle = TriangleTree::Triangle;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Parts of a solid that is not convex meet in flat faces inside it: a point that is no further than
+// this from a part, mm, may lie deep in their union.
+constexpr double kInterface = 1e-9;
 
 }  // namespace
 
@@ -45,7 +48,7 @@ double ProfileDistance::Distance(const Vector3d& p) const {
   for (const ConvexProfile& part : shape_->parts()) {
     least = std::min(least, part.At(local.z, local.r).distance);
   }
-  if (least >= 0.0 || shape_->convex()) return least;
+  if (least > kInterface || shape_->convex()) return least;
   return shape_->exact().Distance(local.z, local.r);
 }
 
@@ -126,7 +129,7 @@ double ProfileDistance::LeastOver(const ConvexProfile& convex, bool is_part,
     const Vector3d p = descent.at();
     const Tangent tangent = TangentAt(convex, p);
     See(p, is_part ? tangent.distance : Distance(p));
-    if (is_part && !is_whole && tangent.distance < 0.0) return -kInfinity;
+    if (is_part && !is_whole && tangent.distance <= kInterface) return -kInfinity;
     const Vector3d& slope = tangent.model.slope;
     lower = std::max(lower,
                      tangent.distance + std::min({slope.dot(piece[0] - p), slope.dot(piece[1] - p),
@@ -175,7 +178,7 @@ double ProfileDistance::LeastOver(const Triangle& piece) {
   double least = kInfinity;
   for (const ConvexProfile& part : shape_->parts()) {
     least = std::min(least, LeastOver(part, true, piece));
-    if (least < 0.0 && !shape_->convex()) return LeastOver(shape_->hull(), false, piece);
+    if (least <= kInterface && !shape_->convex()) return LeastOver(shape_->hull(), false, piece);
   }
   return least;
 }

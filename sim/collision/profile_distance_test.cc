@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "sim/collision/test_shapes.h"
 
@@ -119,6 +121,62 @@ TEST(TriangleTreeTest, OverlappingShellsAreOneSolid) {
   EXPECT_TRUE(tree.Contains({2, 5, 5}));
   EXPECT_FALSE(tree.Contains({7, 5, 11}));
   EXPECT_EQ(tree.representatives().size(), 2u);
+}
+
+machine::TriangleMesh OneTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  machine::TriangleMesh mesh;
+  mesh.vertices = {a, b, c};
+  mesh.triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+// The search runs onto corners of the profile, where the direction of what is left is rounding:
+// a triangle through the axis of a drill point is 5 mm deep at the cylinder's middle.
+TEST(ProfileDistanceTest, CornersOfTheProfileAreNoFalsePlanes) {
+  const ProfileShape drill(PolyProfile({{0, 0}, {3, 5}, {50, 5}, {50, 0}}));
+  const TriangleTree tree(OneTriangle({0, 45, 50}, {0, 196, -166}, {0, -222, -154}));
+  const Interval d = ProfileDistance(drill, tree).Surface({{0, 0, 0}, {0, 0, 1}}, {});
+  EXPECT_LE(d.lower, -5.0 + 1e-6);
+  EXPECT_NEAR(d.upper, -5.0, 3e-3);
+}
+
+// A step of the holder flush with a face: inside the union the parts' faces are no surface. In the
+// middle of the neck the way out is its radius.
+TEST(ProfileDistanceTest, AFaceFlushWithAStep) {
+  const ProfileShape step(PolyProfile({{0, 0}, {0, 5}, {40, 5}, {40, 20}, {60, 20}, {60, 0}}));
+  const TriangleTree tree(BoxMesh({-100, -100, -300}, {100, 100, 0}));
+  const Interval d = ProfileDistance(step, tree).Surface({{0, 0, -40}, {0, 0, 1}}, {});
+  EXPECT_LE(d.lower, -5.0 + 1e-6);
+  EXPECT_NEAR(d.upper, -5.0, 3e-3);
+}
+
+// Nothing nearer than the triangle itself may be looked at, however thin it is.
+TEST(ProfileDistanceTest, SliversStayWhereTheyAre) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const ProfileShape disc(CylinderProfile(0, 1.5, 40));
+  const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+  for (int i = 0; i < 3000; ++i) {
+    const double thin = std::pow(10.0, 4.0 * uniform(random) - 8.0);
+    const Vector3d a = 300.0 * vector();
+    const Vector3d b = a + 500.0 * vector();
+    const Vector3d c = a + (0.5 + 0.5 * uniform(random)) * (b - a) + thin * vector();
+    const TriangleTree tree(OneTriangle(a, b, c));
+    const RevolvedPose pose{30.0 * vector(), vector().normalized()};
+    ProfileDistance kernel(disc, tree);
+    const Interval d = kernel.Surface(pose, {});
+    // Along the long side.
+    double least = 1e9;
+    for (int k = 0; k <= 2000; ++k) {
+      const Vector3d v = a + k / 2000.0 * (b - a) - pose.tip;
+      const double z = v.dot(pose.axis);
+      least = std::min(least, disc.exact().Distance(z, (v - z * pose.axis).norm()));
+    }
+    ASSERT_LE(d.lower, least + 1e-6) << i;
+    const Vector3d& p = *kernel.witness();
+    const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    ASSERT_LT((p - a - t * (b - a)).norm(), 2.0 * thin + 1e-9) << i;
+  }
 }
 
 }  // namespace

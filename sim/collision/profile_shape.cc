@@ -211,7 +211,7 @@ double ProfileShape::LeastOnAxis(double z0, double z1) const {
   z1 = std::min(z1, z_max_);
   if (z1 < z0) return std::numeric_limits<double>::infinity();
   double at = 0.0;
-  return MinimiseOnAxis(z0, z1, 3e-3, -inradius_ + 1e-3, &at);
+  return MinimiseOnAxis(z0, z1, 3e-3, -inradius_ - 1e-3, &at);
 }
 
 // Best first over intervals; the distance changes by no more than the way along the axis. A
