@@ -2,7 +2,6 @@
 #include "sim/collision/checker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -217,9 +216,8 @@ CollisionResult CollisionChecker::Finish() {
         result.clearances.push_back(
             {pair.names, report.least().lower, report.least().upper, report.least_where()});
       }
-      if (pair.role != PairRole::kFlutesPart || !std::isfinite(report.least().upper)) continue;
-      const DeepestCut cut{pair.tool->tool, std::max(0.0, -report.least().upper),
-                           report.least_where()};
+      if (pair.role != PairRole::kFlutesPart || report.least().upper >= 0.0) continue;
+      const DeepestCut cut{pair.tool->tool, -report.least().upper, report.least_where()};
       if (!result.cuts.empty() && result.cuts.back().tool == cut.tool) {
         if (cut.depth_mm > result.cuts.back().depth_mm) result.cuts.back() = cut;
       } else {
