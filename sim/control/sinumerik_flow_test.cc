@@ -10,8 +10,8 @@
 namespace ncsim::control {
 namespace {
 
-std::string Trace(const std::string& text) { return TestRun(text).trace; }
-std::string First(const std::string& text) { return TestRun(text).First(); }
+std::string Trace(const std::string& text) { return SinumerikTestRun(text).trace; }
+std::string First(const std::string& text) { return SinumerikTestRun(text).First(); }
 
 TEST(SinumerikFlowTest, JumpsByLabelNumberAndText) {
   EXPECT_EQ(Trace("GOTOF LA\nX1\nLA: X2\nM30\n"), "X2|M30|");
@@ -63,7 +63,7 @@ TEST(SinumerikFlowTest, Loops) {
 }
 
 TEST(SinumerikFlowTest, AnEndlessLoopIsStopped) {
-  TestRun run("LOOP\nENDLOOP\n");
+  SinumerikTestRun run("LOOP\nENDLOOP\n");
   EXPECT_EQ(run.last, SinumerikEvent::kStopped);
   EXPECT_EQ(run.First(), "1:1 unsupported-code");
 }
@@ -112,14 +112,14 @@ TEST(SinumerikFlowTest, AJumpOutOfARepetitionEndsIt) {
 TEST(SinumerikFlowTest, BlockSkip) {
   SinumerikFlowOptions options;
   options.skip_levels = 1u << 0 | 1u << 3;
-  EXPECT_EQ(TestRun("/X1\n/1 X2\n/3 X3\nX4\n", options).trace, "X2|X4|");
+  EXPECT_EQ(SinumerikTestRun("/X1\n/1 X2\n/3 X3\nX4\n", options).trace, "X2|X4|");
   EXPECT_EQ(Trace("/X1\n/3 X3\n"), "X1|X3|");
   // What is skipped may be wrong.
-  EXPECT_EQ(TestRun("/ X=\nX4\n", options).First(), "");
+  EXPECT_EQ(SinumerikTestRun("/ X=\nX4\n", options).First(), "");
 }
 
 TEST(SinumerikFlowTest, ASyntaxErrorStopsAndTheOthersAreReported) {
-  TestRun run("X1\nX=\nX2\nY=(1\n");
+  SinumerikTestRun run("X1\nX=\nX2\nY=(1\n");
   EXPECT_EQ(run.last, SinumerikEvent::kStopped);
   EXPECT_EQ(run.trace, "X1|");
   ASSERT_EQ(run.findings.size(), 2u);
@@ -128,7 +128,7 @@ TEST(SinumerikFlowTest, ASyntaxErrorStopsAndTheOthersAreReported) {
 }
 
 TEST(SinumerikFlowTest, WhatIsNotSimulatedIsNamed) {
-  TestRun run("ID=1 WHEN TRUE DO M8 X100\nSETINT(1) PRIO=2 LIFT\nR1=1 X1\n");
+  SinumerikTestRun run("ID=1 WHEN TRUE DO M8 X100\nSETINT(1) PRIO=2 LIFT\nR1=1 X1\n");
   ASSERT_EQ(run.findings.size(), 2u);
   EXPECT_NE(run.findings[0].message.find("synchronised action (ID)"), std::string::npos);
   EXPECT_NE(run.findings[1].message.find("SETINT"), std::string::npos);
@@ -137,7 +137,7 @@ TEST(SinumerikFlowTest, WhatIsNotSimulatedIsNamed) {
 }
 
 TEST(SinumerikFlowTest, AMacroIsNamedWhereItIsUsed) {
-  TestRun run("DEFINE GOHOME AS G0 X0\nX1\nGOHOME\nX=GOHOME\n");
+  SinumerikTestRun run("DEFINE GOHOME AS G0 X0\nX1\nGOHOME\nX=GOHOME\n");
   ASSERT_EQ(run.findings.size(), 3u);
   for (const Finding& finding : run.findings) EXPECT_EQ(finding.rule, Rule::kUnsupportedCode);
 }

@@ -13,7 +13,7 @@
 namespace ncsim::control {
 
 /// Axes X Y Z A B C X1; system variables are remembered as "$NAME[1,X,TR]" -> value.
-class TestSystem : public SinumerikSystem {
+class SinumerikTestSystem : public SinumerikSystem {
  public:
   bool IsAxis(std::string_view name) const override {
     return name == "X1" ||
@@ -47,9 +47,10 @@ class TestSystem : public SinumerikSystem {
 };
 
 /// A run of `text` to its end, its stop, or `max_blocks`.
-class TestRun {
+class SinumerikTestRun {
  public:
-  explicit TestRun(std::string text, SinumerikFlowOptions options = {}, std::string name = "t.mpf")
+  explicit SinumerikTestRun(std::string text, SinumerikFlowOptions options = {},
+                            std::string name = "t.mpf")
       : flow(nc::Program::FromText(std::move(name), std::move(text)), Bounded(std::move(options)),
              &system, &files, [this](Finding finding) { findings.push_back(std::move(finding)); }) {
     SinumerikStep step;
@@ -85,7 +86,7 @@ class TestRun {
     return flow.ReadVariable(name, &value) ? nc::ToText(value) : "?";
   }
 
-  TestSystem system;
+  SinumerikTestSystem system;
   SourceFiles files;
   std::vector<Finding> findings;
   std::string trace;  ///< Blocks, a '|' behind each.
