@@ -2,6 +2,7 @@
 #include "sim/collision/engine.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "sim/collision/mesh_distance.h"
@@ -12,6 +13,8 @@ namespace {
 
 using Eigen::Isometry3d;
 
+constexpr double kAlongBudget = 1.0;  // mm beyond what is needed of a whole way
+
 class ToolEngine final : public PairEngine {
  public:
   ToolEngine(std::shared_ptr<const ToolBody> a, std::shared_ptr<const MeshBody> b)
@@ -19,6 +22,20 @@ class ToolEngine final : public PairEngine {
 
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     return kernel_.Surface(ToolPose(X_BA, a_->length), goal);
+  }
+  // Where the solid was when it stood nearest to its tip, it is swept from.
+  std::optional<double> ClearanceAlong(const Isometry3d& X_BA, double along, double need) override {
+    const ProfileShape& shape = a_->shape;
+    if (need < 0.0 && !shape.convex()) return std::nullopt;
+    const ProfileShape swept = shape.Swept(std::abs(along));
+    RevolvedPose pose = ToolPose(X_BA, a_->length);
+    pose.tip -= std::max(0.0, along) * pose.axis;
+    DistanceGoal goal;
+    goal.floor = need;
+    goal.relative_gap = 0.2;
+    goal.stop_above = need + kAlongBudget;
+    goal.stop_below = need;
+    return ProfileDistance(swept, b_->tree).Surface(pose, goal).lower;
   }
   bool Contained(const Isometry3d& X_BA) override {
     return kernel_.Contained(ToolPose(X_BA, a_->length));
@@ -56,6 +73,10 @@ class SweptEngine final : public PairEngine {
 
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     return kernel_.Surface(Pose(X_BA), goal);
+  }
+  std::optional<double> ClearanceAlong(const Isometry3d& /*X_BA*/, double /*along*/,
+                                       double /*need*/) override {
+    return std::nullopt;
   }
   bool Contained(const Isometry3d& X_BA) override { return kernel_.Contained(Pose(X_BA)); }
   std::optional<Interval> Solid(const Isometry3d& X_BA, const DistanceGoal& goal) override {
@@ -95,6 +116,10 @@ class MeshEngine final : public PairEngine {
     result.lower = *distance - kFclDistanceError;
     result.upper = std::min(result.upper, *distance);
     return result;
+  }
+  std::optional<double> ClearanceAlong(const Isometry3d& /*X_BA*/, double /*along*/,
+                                       double /*need*/) override {
+    return std::nullopt;
   }
   bool Contained(const Isometry3d& X_BA) override {
     if (kernel_.BoxesApart(X_BA)) return false;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/motion/translation.h"
+
 namespace ncsim::collision {
 
 namespace {
@@ -25,6 +27,7 @@ constexpr int kRefinements = 4000;        // queries a motion for the sake of a 
 constexpr int kDepthQueries = 1000;       // a motion
 constexpr int kNearQueries = 60;          // of them near the contact
 constexpr int kDepthEvaluations = 3000;   // a query
+constexpr double kAstray = 0.01;          // mm off the tool's axis that still is a way along it
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
 PathPoint Middle(const Span& span) {
@@ -252,12 +255,11 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
     return sweep.result;
   }
   const double bound = motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
-  if (known_.outside && known_.clearance - bound > Need(sweep)) {
-    known_.clearance -= bound;
-    known_.q = motion.q1();
-    if (watch.track) least_.lower = std::min(least_.lower, known_.clearance);
-    sweep.result.least.lower = known_.clearance;
-    return sweep.result;
+  if (known_.outside) {
+    const double need = Need(sweep);
+    if (known_.clearance - bound > need) return Pass(motion, watch, known_.clearance - bound);
+    const std::optional<double> along = ClearAlongAxis(motion, need);
+    if (along.has_value()) return Pass(motion, watch, *along);
   }
   Cover(whole, &sweep);
   const SweepResult& result = sweep.result;
@@ -273,6 +275,35 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
   known_.clearance = sweep.end;
   known_.q = motion.q1();
   return result;
+}
+
+// A motion that is clear by `clearance` all the way.
+SweepResult PairSweep::Pass(const Motion& motion, const Watch& watch, double clearance) {
+  known_.clearance = clearance;
+  known_.q = motion.q1();
+  if (watch.track) least_.lower = std::min(least_.lower, clearance);
+  SweepResult result;
+  result.least = {clearance, kInfinity};
+  return result;
+}
+
+// The least clearance of a motion along the tool's own axis, in one look, if it is what is needed:
+// retracts, approaches and drilling are such.
+std::optional<double> PairSweep::ClearAlongAxis(const Motion& motion, double need) {
+  if (!path_->revolved) return std::nullopt;
+  // How deep a feed goes is looked at.
+  if (!motion::IsRapid(motion)) need = std::max(need, 0.0);
+  const auto translation = motion::TranslationOf(motion, *path_);
+  if (!translation.has_value()) return std::nullopt;
+  const Eigen::Isometry3d X_BA = path_->path.Pose(motion.q0());
+  const Eigen::Vector3d axis = X_BA.linear().col(2);
+  const double along = translation->way.dot(axis);
+  const double astray = translation->astray + (translation->way - along * axis).norm();
+  if (astray > kAstray) return std::nullopt;
+  ++queries_;
+  const std::optional<double> clearance = engine_->ClearanceAlong(X_BA, along, need + astray);
+  if (!clearance.has_value() || *clearance - astray <= need) return std::nullopt;
+  return *clearance - astray;
 }
 
 // Where nothing is known of the start: is one body inside the other, or in contact? From a start
