@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/motion/translation.h"
-
 namespace ncsim::collision {
 
 namespace {
@@ -181,8 +179,8 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
   const int grid = static_cast<int>(std::floor(std::log2(std::max(0.4 * ahead_, 1e-3))));
   bool explored = false;
   for (std::size_t level = std::min(bound.levels(), level_ + 2); level-- > 0;) {
+    if (bound.StretchEnd(at, level) <= path_end) break;  // the path gets further
     const motion::PairTravel::Neighbourhood around = bound.Around(at, level, grid);
-    if (around.end <= path_end) break;  // the path gets further
     const double enough = Spared(watch) + around.radius;
     std::optional<double> clearance = Recall(around);
     if ((!clearance.has_value() || *clearance <= enough) && around.radius < 0.9 * ahead_ &&
@@ -254,12 +252,19 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
     known_.q = motion.q1();
     return sweep.result;
   }
-  const double bound = motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
   if (known_.outside) {
     const double need = Need(sweep);
+    const auto translation = motion::TranslationOf(motion, *path_);
+    const double bound = translation.has_value()
+                             ? translation->way.norm() + translation->astray
+                             : motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
     if (known_.clearance - bound > need) return Pass(motion, watch, known_.clearance - bound);
-    const std::optional<double> along = ClearAlongAxis(motion, need);
-    if (along.has_value()) return Pass(motion, watch, *along);
+    if (translation.has_value() && path_->revolved) {
+      // How deep a feed goes is looked at.
+      const double enough = motion::IsRapid(motion) ? need : std::max(need, 0.0);
+      const std::optional<double> along = ClearAlongAxis(*translation, enough);
+      if (along.has_value()) return Pass(motion, watch, *along);
+    }
   }
   Cover(whole, &sweep);
   const SweepResult& result = sweep.result;
@@ -289,19 +294,15 @@ SweepResult PairSweep::Pass(const Motion& motion, const Watch& watch, double cle
 
 // The least clearance of a motion along the tool's own axis, in one look, if it is what is needed:
 // retracts, approaches and drilling are such.
-std::optional<double> PairSweep::ClearAlongAxis(const Motion& motion, double need) {
-  if (!path_->revolved) return std::nullopt;
-  // How deep a feed goes is looked at.
-  if (!motion::IsRapid(motion)) need = std::max(need, 0.0);
-  const auto translation = motion::TranslationOf(motion, *path_);
-  if (!translation.has_value()) return std::nullopt;
-  const Eigen::Isometry3d X_BA = path_->path.Pose(motion.q0());
-  const Eigen::Vector3d axis = X_BA.linear().col(2);
-  const double along = translation->way.dot(axis);
-  const double astray = translation->astray + (translation->way - along * axis).norm();
+std::optional<double> PairSweep::ClearAlongAxis(const motion::Translation& translation,
+                                                double need) {
+  const Eigen::Vector3d axis = translation.X_BA.linear().col(2);
+  const double along = translation.way.dot(axis);
+  const double astray = translation.astray + (translation.way - along * axis).norm();
   if (astray > kAstray) return std::nullopt;
   ++queries_;
-  const std::optional<double> clearance = engine_->ClearanceAlong(X_BA, along, need + astray);
+  const std::optional<double> clearance =
+      engine_->ClearanceAlong(translation.X_BA, along, need + astray);
   if (!clearance.has_value() || *clearance - astray <= need) return std::nullopt;
   return *clearance - astray;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/motion/translation.h"
 
-#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <variant>
 
@@ -18,27 +18,30 @@ bool Turns(const Motion& motion, const kinematics::RelativePath& path) {
 
 /// All the way at once.
 Translation Straight(const Motion& motion, const kinematics::RelativePath& path) {
-  return {path.Pose(motion.q1()).translation() - path.Pose(motion.q0()).translation(), 0.0};
+  Translation result;
+  result.X_BA = path.Pose(motion.q0());
+  result.way = path.Pose(motion.q1()).translation() - result.X_BA.translation();
+  return result;
 }
 
 /// Each axis at its own time: the longest way is the straight one, and the others together lead no
 /// further from it than they go.
 Translation InTurn(const DogLeg& dog_leg, const kinematics::RelativePath& path) {
-  const Eigen::Vector3d start = path.Pose(dog_leg.q0).translation();
   Translation result;
+  result.X_BA = path.Pose(dog_leg.q0);
+  JointVector longest_only = dog_leg.q0;
   double longest = 0.0;
   double sum = 0.0;
   for (const int joint : path.joint_indices()) {
-    if (dog_leg.q0[joint] == dog_leg.q1[joint]) continue;
-    JointVector q = dog_leg.q0;
-    q[joint] = dog_leg.q1[joint];
-    const Eigen::Vector3d way = path.Pose(q).translation() - start;
-    sum += way.norm();
-    if (way.norm() <= longest) continue;
-    longest = way.norm();
-    result.way = way;
+    const double way = std::abs(dog_leg.q1[joint] - dog_leg.q0[joint]);
+    sum += way;
+    if (way <= longest) continue;
+    longest = way;
+    longest_only = dog_leg.q0;
+    longest_only[joint] = dog_leg.q1[joint];
   }
-  result.astray = std::max(0.0, sum - longest);
+  result.way = path.Pose(longest_only).translation() - result.X_BA.translation();
+  result.astray = sum - longest;
   return result;
 }
 

@@ -2,7 +2,7 @@
 // Motions that turn nothing.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 
 #include "sim/motion/motion.h"
@@ -10,8 +10,9 @@
 namespace ncsim::motion {
 
 /// Body A seen from B, whatever the lag: turns nothing, and is at every pose within `astray` of
-/// some point of the straight way from where it is at q0, by `way`; mm, in B's frame.
+/// some point of the straight way from `X_BA`, its pose at q0, by `way`; mm, in B's frame.
 struct Translation {
+  Eigen::Isometry3d X_BA = Eigen::Isometry3d::Identity();
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   double astray = 0.0;
 };
