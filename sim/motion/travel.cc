@@ -38,7 +38,7 @@ double AxisChange(const kinematics::FiveAxis& five_axis, const JointVector& q,
 
 Measures OfTcp(const TcpCurve& curve) {
   const kinematics::FiveAxis& control = curve.frame->control;
-  JointVector q = Interpolate(curve.q0, curve.q1, 0.5);
+  JointVector q = RotaryAt(curve, 0.5);
   control.SolveLinear(TipPoint(curve, 0.5), curve.frame->length, &q);
   // Within half the way of the middle, so within twice that of an end.
   const TcpReach reach = Reach(curve, q, 0.5, 0.5);
@@ -121,6 +121,9 @@ class Meter {
     if (five_axis_ == nullptr) return measures;
     measures.axis = std::max(AxisChange(*five_axis_, motion.q0(), measures.joints),
                              AxisChange(*five_axis_, motion.q1(), measures.joints));
+    if (curve != nullptr && curve->great_circle != nullptr) {
+      measures.axis = std::min(measures.axis, kinematics::Chord(curve->great_circle->angle()));
+    }
     if (curve != nullptr) {
       // The control leads its own tip; the metal's is somewhere else on the tool's axis.
       measures.tip += std::abs(curve->frame->length - length_) * measures.axis;
