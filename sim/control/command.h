@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include "sim/base/finding.h"
 #include "sim/motion/motion.h"
@@ -22,22 +23,40 @@ using AxisValues = std::array<double, kNumAxes>;
 /// The plane of arcs, cycles and compensation: first, second and normal axis.
 enum class Plane : std::uint8_t { kXY, kZX, kYZ };  // G17, G18, G19
 
+/// How the axes share the time of a rapid.
+enum class RapidMode : std::uint8_t {
+  kIndependent,   ///< Each axis at its own rate; the block ends when all have arrived.
+  kLinearXyz,     ///< X, Y, Z in a straight line, rotary axes independent.
+  kLinearRotary,  ///< All arrive together.
+};
+
+/// How rotary axes go under TCP.
+enum class Orientation : std::uint8_t {
+  kAxes,    ///< In proportion.
+  kVector,  ///< The tool axis on a great circle; rotary axes end where that leads.
+};
+
+/// Where program coordinates X, Y, Z lie in those of the work offset: an affine frame that turns,
+/// scales and mirrors about a point (G68; TRANS, ROT, SCALE, MIRROR).
+struct ProgramFrame {
+  bool active = false;                                   ///< False: as if there were none.
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  ///< Not singular.
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();        ///< A point in program coordinates ...
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();          ///< ... and where it lies.
+};
+
 /// What turns program coordinates into machine ones. Immutable; commands share it until a modal
 /// change.
 struct Frame {
   AxisValues offset{};       ///< Active work offset + G52 + G92 shift: machine values.
   int offset_index = 0;      ///< Index into the run's OffsetTable (motion::Facts::offset).
-  double tool_length = 0.0;  ///< Signed: G43 +H, G44 -H, 0 after G49.
+  double tool_length = 0.0;  ///< Along Z, signed: Haas G43 +H, G44 -H; SINUMERIK D.
   enum class Rotation : std::uint8_t {
     kNone,
     kDwo,
     kTcp
-  } rotation = Rotation::kNone;  ///< G255 / G254 / G234.
-  // G68: rotation of program coordinates in the plane, about a centre in program coordinates.
-  bool g68 = false;
-  Plane g68_plane = Plane::kXY;
-  double g68_angle = 0.0;
-  double g68_centre[2] = {0.0, 0.0};
+  } rotation = Rotation::kNone;  ///< Haas: G255 / G254 / G234; SINUMERIK: TRAFOOF / - / TRAORI.
+  ProgramFrame program;
 };
 
 enum class CommandKind : std::uint8_t {
@@ -63,6 +82,10 @@ struct Command {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   bool clockwise = false;
   bool full_circle = false;
+  /// Unit; zero: the plane's normal axis. An arc that lies in no coordinate plane (CIP).
+  Eigen::Vector3d arc_normal = Eigen::Vector3d::Zero();
+  RapidMode rapid = RapidMode::kIndependent;
+  Orientation orientation = Orientation::kAxes;
   // Feed: exactly one of the modes.
   enum class FeedMode : std::uint8_t {
     kPerMinute,
@@ -74,10 +97,12 @@ struct Command {
   double dwell = 0.0;  ///< s.
   bool spindle_on = false;
   bool exact_stop = false;
-  std::uint8_t brakes = 0;       ///< Bit per AxisIndex: rotary brake commanded on.
-  int tool = 0;                  ///< T number in the spindle while this command runs.
-  int cycle = 0;                 ///< motion::Facts::cycle.
-  double corner_rounding = 0.0;  ///< mm.
+  std::uint8_t brakes = 0;             ///< Bit per AxisIndex: rotary brake commanded on.
+  int tool = 0;                        ///< T number in the spindle while this command runs.
+  int cycle = 0;                       ///< motion::Facts::cycle.
+  double corner_rounding = 0.0;        ///< mm.
+  double orientation_tolerance = 0.0;  ///< rad: motion::Facts::orientation_tolerance.
+  std::string_view wrap_note;          ///< motion::Facts::wrap_note.
   // What the contour stage acts on.
   enum class Comp : std::uint8_t { kOff, kLeft, kRight } comp = Comp::kOff;  ///< G40 / G41 / G42.
   double comp_radius = 0.0;                                                  ///< mm, signed.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/control/haas_ngc.h"
+#include "sim/control/sinumerik_840d.h"
 #include "sim/nc/code_table.h"
 
 namespace ncsim::control {
@@ -15,6 +16,9 @@ RunSummary RunProgram(std::shared_ptr<const nc::Program> program, const machine:
   const std::string& dialect = machine.control.dialect;
   if (dialect == nc::HaasNgc().id) {
     return RunHaasNgc(std::move(program), machine, job, tools, files, part_frames, sink);
+  }
+  if (dialect == kSinumerik840d) {
+    return RunSinumerik840d(std::move(program), machine, job, tools, files, part_frames, sink);
   }
   SourcePosition where;
   where.file = files->Add(program->name());

@@ -11,16 +11,8 @@ namespace {
 
 Eigen::Vector3d Linear(const AxisValues& values) { return {values[kX], values[kY], values[kZ]}; }
 
-// Turns two coordinates of `point` by `angle` about the frame's G68 centre.
-AxisValues TurnInPlane(const Frame& frame, AxisValues point, double angle) {
-  const PlaneAxes plane = AxesOf(frame.g68_plane);
-  double& first = point[static_cast<std::size_t>(plane.first)];
-  double& second = point[static_cast<std::size_t>(plane.second)];
-  const double u = first - frame.g68_centre[0];
-  const double v = second - frame.g68_centre[1];
-  first = frame.g68_centre[0] + std::cos(angle) * u - std::sin(angle) * v;
-  second = frame.g68_centre[1] + std::sin(angle) * u + std::cos(angle) * v;
-  return point;
+void SetLinear(const Eigen::Vector3d& point, AxisValues* values) {
+  for (std::size_t i = 0; i < 3; ++i) (*values)[i] = point[static_cast<int>(i)];
 }
 
 }  // namespace
@@ -49,8 +41,15 @@ AxisValues AxisMap::Values(const JointVector& q) const {
   return values;
 }
 
-AxisValues ApplyG68(const Frame& frame, const AxisValues& point) {
-  return frame.g68 ? TurnInPlane(frame, point, frame.g68_angle) : point;
+AxisValues ApplyProgramFrame(const ProgramFrame& frame, AxisValues point) {
+  if (frame.active) SetLinear(frame.to + frame.linear * (Linear(point) - frame.from), &point);
+  return point;
+}
+
+AxisValues RemoveProgramFrame(const ProgramFrame& frame, AxisValues point) {
+  if (!frame.active) return point;
+  SetLinear(frame.from + frame.linear.inverse() * (Linear(point) - frame.to), &point);
+  return point;
 }
 
 Frames::Frames(const machine::Machine& machine, ControlKinematics kinematics)
@@ -64,18 +63,24 @@ void Frames::Use(const std::shared_ptr<const Frame>& frame) {
   dwo_valid_ = false;
   tcp_.reset();
   if (frame->rotation == Frame::Rotation::kNone || !can_rotate()) return;
-  const auto tip = [&](const Eigen::Vector3d& q) {
+  const auto tip = [&](const Eigen::Vector3d& q, const ProgramFrame& program) {
     AxisValues machine{};
-    for (std::size_t i = 0; i < 3; ++i) machine[i] = frame->offset[i] + q[static_cast<int>(i)];
+    SetLinear(q, &machine);
+    machine = ApplyProgramFrame(program, machine);
+    for (std::size_t i = 0; i < 3; ++i) machine[i] += frame->offset[i];
     machine[kZ] += frame->tool_length;
     Eigen::Vector3d p_BT_B, u_B;
     kinematics_.five_axis->TipInTable(axes_.Joints(machine), frame->tool_length, &p_BT_B, &u_B);
     return p_BT_B;
   };
-  origin_B_ = tip(Eigen::Vector3d::Zero());
+  origin_B_ = tip(Eigen::Vector3d::Zero(), {});
   if (frame->rotation != Frame::Rotation::kTcp) return;
-  in_table_.origin = origin_B_;
-  for (int i = 0; i < 3; ++i) in_table_.rotation.col(i) = tip(Eigen::Vector3d::Unit(i)) - origin_B_;
+  const ProgramFrame& program = frame->program;
+  in_table_.origin = tip(Eigen::Vector3d::Zero(), program);
+  for (int i = 0; i < 3; ++i) {
+    in_table_.linear.col(i) = tip(Eigen::Vector3d::Unit(i), program) - in_table_.origin;
+  }
+  in_table_.inverse = in_table_.linear.inverse();
   tcp_ = std::make_shared<const motion::TcpFrame>(
       motion::TcpFrame{*kinematics_.five_axis, frame->tool_length, kinematics_.centre_error});
 }
@@ -104,7 +109,7 @@ const Eigen::Vector3d& Frames::DwoOrigin(const AxisValues& machine) {
 }
 
 AxisValues Frames::ToMachine(const std::shared_ptr<const Frame>& frame, const AxisValues& program) {
-  const AxisValues turned = ApplyG68(*frame, program);
+  const AxisValues turned = ApplyProgramFrame(frame->program, program);
   AxisValues machine{};
   for (std::size_t i = 0; i < kNumAxes; ++i) machine[i] = frame->offset[i] + turned[i];
   machine[kZ] += frame->tool_length;
@@ -116,7 +121,7 @@ AxisValues Frames::ToMachine(const std::shared_ptr<const Frame>& frame, const Ax
     return machine;
   }
   JointVector q = axes_.Joints(machine);
-  kinematics_.five_axis->SolveLinear(in_table_.Point(Linear(turned)), frame->tool_length, &q);
+  kinematics_.five_axis->SolveLinear(in_table_.Point(Linear(program)), frame->tool_length, &q);
   const AxisValues solved = axes_.Values(q);
   for (std::size_t i = 0; i < 3; ++i) machine[i] = solved[i];
   return machine;
@@ -136,18 +141,14 @@ AxisValues Frames::ToProgram(const std::shared_ptr<const Frame>& frame, const Ax
       kinematics_.five_axis->TipInTable(axes_.Joints(machine), frame->tool_length, &p_BT_B, &u_B);
       q = in_table_.Program(p_BT_B);
     }
-    for (std::size_t i = 0; i < 3; ++i) program[i] = q[static_cast<int>(i)];
+    SetLinear(q, &program);
+    if (frame->rotation == Frame::Rotation::kTcp) return program;
   }
-  return frame->g68 ? TurnInPlane(*frame, program, -frame->g68_angle) : program;
+  return RemoveProgramFrame(frame->program, program);
 }
 
 Eigen::Vector3d Frames::VectorToMachine(const Frame& frame, const Eigen::Vector3d& v) {
-  if (!frame.g68) return v;
-  Frame about_zero = frame;
-  about_zero.g68_centre[0] = about_zero.g68_centre[1] = 0.0;
-  const AxisValues turned =
-      TurnInPlane(about_zero, {v.x(), v.y(), v.z(), 0.0, 0.0, 0.0}, frame.g68_angle);
-  return Linear(turned);
+  return frame.program.active ? Eigen::Vector3d(frame.program.linear * v) : v;
 }
 
 }  // namespace ncsim::control

@@ -44,13 +44,12 @@ class AxisMap {
 
 /// X, Y, Z of a point in program coordinates <-> table frame B, as the control sees it under TCP.
 struct ProgramInTable {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  Eigen::Vector3d Point(const Eigen::Vector3d& q) const { return rotation * q + origin; }
-  Eigen::Vector3d Vector(const Eigen::Vector3d& v) const { return rotation * v; }
-  Eigen::Vector3d Program(const Eigen::Vector3d& p_B) const {
-    return rotation.transpose() * (p_B - origin);
-  }
+  Eigen::Vector3d Point(const Eigen::Vector3d& q) const { return linear * q + origin; }
+  Eigen::Vector3d Vector(const Eigen::Vector3d& v) const { return linear * v; }
+  Eigen::Vector3d Program(const Eigen::Vector3d& p_B) const { return inverse * (p_B - origin); }
 };
 
 class Frames {
@@ -66,13 +65,15 @@ class Frames {
   /// pass through.
   AxisValues ToMachine(const std::shared_ptr<const Frame>& frame, const AxisValues& program);
   AxisValues ToProgram(const std::shared_ptr<const Frame>& frame, const AxisValues& machine);
-  /// A direction or a position relative to another, X, Y, Z, from program to machine directions
-  /// (G68). Not for TCP.
+  /// A direction or a position relative to another, X, Y, Z, from program to machine directions.
+  /// Not for TCP.
   static Eigen::Vector3d VectorToMachine(const Frame& frame, const Eigen::Vector3d& v);
 
   /// For a frame with Rotation::kTcp: shared by the motions until the frame changes.
   const std::shared_ptr<const motion::TcpFrame>& Tcp(const std::shared_ptr<const Frame>& frame);
   const ProgramInTable& InTable(const std::shared_ptr<const Frame>& frame);
+  /// As the control believes them to be; needs can_rotate().
+  const kinematics::FiveAxis& five_axis() const { return *kinematics_.five_axis; }
 
  private:
   void Use(const std::shared_ptr<const Frame>& frame);
@@ -90,7 +91,8 @@ class Frames {
   Eigen::Vector3d dwo_origin_ = Eigen::Vector3d::Zero();  ///< Machine values of program zero.
 };
 
-/// Turns the plane's two coordinates of `point` by the frame's G68 angle about its centre.
-AxisValues ApplyG68(const Frame& frame, const AxisValues& point);
+/// Coordinates of the work offset <-> program coordinates of the programmable frame.
+AxisValues ApplyProgramFrame(const ProgramFrame& frame, AxisValues point);
+AxisValues RemoveProgramFrame(const ProgramFrame& frame, AxisValues point);
 
 }  // namespace ncsim::control

@@ -174,12 +174,23 @@ Frame HaasInterpreter::MakeFrame() const {
     if (tcp()) frame.rotation = Frame::Rotation::kTcp;
     if (dwo()) frame.rotation = Frame::Rotation::kDwo;
   }
-  frame.g68 = g68_;
-  frame.g68_plane = g68_plane_;
-  frame.g68_angle = g68_angle_;
-  frame.g68_centre[0] = g68_centre_[0];
-  frame.g68_centre[1] = g68_centre_[1];
+  if (g68_) frame.program = TurnInPlane();
   return frame;
+}
+
+// G68: the plane's two coordinates turn about the centre.
+ProgramFrame HaasInterpreter::TurnInPlane() const {
+  const PlaneAxes plane = AxesOf(g68_plane_);
+  ProgramFrame turn;
+  turn.active = true;
+  const double cosine = std::cos(g68_angle_), sine = std::sin(g68_angle_);
+  turn.linear(plane.first, plane.first) = turn.linear(plane.second, plane.second) = cosine;
+  turn.linear(plane.first, plane.second) = -sine;
+  turn.linear(plane.second, plane.first) = sine;
+  turn.from[plane.first] = g68_centre_[0];
+  turn.from[plane.second] = g68_centre_[1];
+  turn.to = turn.from;
+  return turn;
 }
 
 // A new frame moves nothing: the programmed position is worked out anew from where the machine

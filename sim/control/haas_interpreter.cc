@@ -48,6 +48,7 @@ HaasInterpreter::HaasInterpreter(const Parts& parts, const CodeIndex& codes,
     codes_[static_cast<std::size_t>(spec.group)] = spec.number_x10;
   }
   codes_[kGroupUnits] = settings_.inch ? 200 : 210;
+  command_.rapid = settings_.rapid;
   for (int axis = kX; axis < kNumAxes; ++axis) {
     if (!axes_.has(axis)) missing_axes_ += "XYZABC"[axis];
   }

@@ -21,6 +21,7 @@
 #include "sim/control/haas_block.h"
 #include "sim/control/haas_registers.h"
 #include "sim/control/haas_settings.h"
+#include "sim/control/part_frames.h"
 #include "sim/control/run_log.h"
 #include "sim/control/to_motion.h"
 #include "sim/machine/machine.h"
@@ -119,6 +120,7 @@ class HaasInterpreter {
   bool CheckRotationRules();
   void RefreshFrame(bool tcp_on);
   Frame MakeFrame() const;
+  ProgramFrame TurnInPlane() const;
   bool ExecuteRotation();
   bool SetShift();  // G52
   bool SetG92();

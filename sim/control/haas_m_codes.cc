@@ -4,6 +4,7 @@
 
 #include "sim/base/text.h"
 #include "sim/control/haas_interpreter.h"
+#include "sim/control/tool_change.h"
 
 namespace ncsim::control {
 
@@ -103,15 +104,6 @@ void HaasInterpreter::ToolChange() {
 // By settings 293-298 where they are stated, then to the model's pose; setting 247 ON: Z, X and Y
 // at the same time.
 void HaasInterpreter::MoveToToolChange() {
-  const machine::ControlData& control = parts_.machine->control;
-  AxisValues pose{};
-  unsigned stated = 1U << kZ;
-  for (const auto& [letter, value] : control.tool_change_pose) {
-    const std::size_t axis = std::string_view("XYZABC").find(letter);
-    if (axis >= kNumAxes) continue;
-    pose[axis] = value;
-    stated |= 1U << axis;
-  }
   AxisValues mid{};
   unsigned mid_stated = 0;
   for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
@@ -119,32 +111,15 @@ void HaasInterpreter::MoveToToolChange() {
     mid[axis] = *settings_.tool_change_mid[axis];
     mid_stated |= 1U << axis;
   }
-  if (control.tool_change_nominal) {
-    std::string text = "at";
-    for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
-      if (axis <= kZ && (stated & 1U << axis) != 0) {
-        text += std::string(" ") + "XYZ"[axis] + Fixed(pose[axis], 3);
-      }
-    }
-    log_.Assume("tool-change pose", text + ": the model's nominal values", false);
-  }
+  const ToolChangeWay way(parts_.machine->control);
+  way.AssumePose(&log_);
   const auto go = [this](const AxisValues& target, unsigned axes) {
     if (axes != 0 && !log_.stopped()) PushMachine(CommandKind::kMachineRapid, axes, target);
   };
   go(mid, mid_stated & 1U << kZ);
   go(mid, mid_stated & ~(1U << kZ));
-  if (settings_.tool_change_together) return go(pose, stated);
-  unsigned gone = 0;
-  for (const std::string& step : control.tool_change_order) {
-    unsigned axes = 0;
-    for (const char letter : step) {
-      const std::size_t axis = std::string_view("XYZABC").find(letter);
-      if (axis < kNumAxes) axes |= 1U << axis;
-    }
-    go(pose, axes & stated);
-    gone |= axes;
-  }
-  go(pose, stated & ~gone);
+  if (settings_.tool_change_together) return go(way.pose, way.stated);
+  for (const unsigned axes : way.steps) go(way.pose, axes);
 }
 
 }  // namespace ncsim::control

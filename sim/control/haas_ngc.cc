@@ -3,49 +3,21 @@
 
 #include <utility>
 
-#include "sim/base/text.h"
-#include "sim/base/units.h"
 #include "sim/control/flow.h"
 #include "sim/control/haas_interpreter.h"
 #include "sim/control/haas_variables.h"
+#include "sim/control/run_start.h"
 
 namespace ncsim::control {
 namespace {
 
-AxisValues StartPosition(const machine::Machine& machine, const machine::Job& job, RunLog* log) {
-  AxisValues start = AxisMap(machine).Values(machine.Home());
-  for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
-    const auto found = job.start.find("XYZABC"[axis]);
-    if (found != job.start.end()) start[axis] = found->second;
-  }
-  if (job.start.empty()) log->Assume("start position", "every axis stands at home", false);
-  return start;
-}
-
-void AssumeRates(const machine::Machine& machine, RunLog* log) {
-  std::string text = "the model's:";
-  for (const machine::Axis& axis : machine.axes) {
-    text += std::string(" ") + axis.letter + " " +
-            (axis.rotary ? Short(Degrees(axis.rapid), 1) + " deg/s"
-                         : Short(axis.rapid * 0.06, 2) + " m/min");
-  }
-  log->Assume("rapid rates", text, false);
-}
-
 // A 0 in the diameters is "not stated": then a degree is a unit.
 MotionOptions ToMotionOptions(const HaasSettings& settings) {
   MotionOptions options;
-  options.rapid = settings.rapid;
   options.track_tcp_rapids = settings.track_tcp_rapids;
   options.rotary_diameter = settings.rotary_diameter;
   options.degree_counts_as = settings.mm_per_unit();
   return options;
-}
-
-std::vector<int> MotionlessCodes(const machine::Machine& machine, const machine::Job& job) {
-  std::vector<int> codes = machine.control.m_codes_without_motion;
-  codes.insert(codes.end(), job.m_codes_without_motion.begin(), job.m_codes_without_motion.end());
-  return codes;
 }
 
 FlowOptions ToFlowOptions(const machine::Machine& machine, const machine::Job& job,
@@ -53,10 +25,7 @@ FlowOptions ToFlowOptions(const machine::Machine& machine, const machine::Job& j
   FlowOptions options;
   options.block_delete = settings.block_skip;
   options.optional_stop = settings.optional_stop;
-  options.subprogram_folders = job.subprogram_folders;
-  const auto& folders = machine.control.subprogram_folders;
-  options.subprogram_folders.insert(options.subprogram_folders.end(), folders.begin(),
-                                    folders.end());
+  options.subprogram_folders = SubprogramFolders(machine, job);
   for (const char* setting : {"setting 251", "setting 252"}) {
     if (const auto folder = source.Text(setting)) options.subprogram_folders.push_back(*folder);
   }

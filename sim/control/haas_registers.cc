@@ -1,34 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/haas_registers.h"
 
-#include <map>
-
-#include "sim/base/diagnostics.h"
-#include "sim/control/frames.h"
-#include "sim/machine/scene.h"
+#include "sim/control/part_frames.h"
 
 namespace ncsim::control {
 namespace {
 
 constexpr std::uint8_t kXyz = 1U << kX | 1U << kY | 1U << kZ;
-constexpr std::array<char, kNumAxes> kLetters = {'X', 'Y', 'Z', 'A', 'B', 'C'};
-
-AxisValues GaugeAtMount(const machine::Machine& machine) {
-  if (!machine.five_axis) return {};
-  motion::JointVector q = motion::JointVector::Zero(machine.tree.num_moving());
-  machine.five_axis->SolveLinear(Eigen::Vector3d::Zero(), 0.0, &q);
-  AxisValues values = AxisMap(machine).Values(q);
-  values[kA] = values[kB] = values[kC] = 0.0;
-  return values;
-}
-
-std::optional<std::map<char, double>> JobOffset(const machine::Machine& machine,
-                                                const machine::Job& job, int index) {
-  Diagnostics unread;  // Whoever loaded the job has reported what is wrong with it.
-  const std::string name = HaasRegisters::OffsetName(index);
-  if (job.FindOffset(name) == nullptr) return std::nullopt;
-  return OffsetValues(machine, job, name, &unread);
-}
 
 }  // namespace
 
@@ -36,15 +14,12 @@ HaasRegisters::HaasRegisters(const machine::Machine& machine, const machine::Job
                              const machine::ToolTable& tools, bool radius_d)
     : at_mount_(GaugeAtMount(machine)) {
   for (int index = 0; index < kNumWorkOffsets; ++index) {
-    const auto values = job.offsets.empty() ? std::nullopt : JobOffset(machine, job, index);
+    const auto values =
+        job.offsets.empty() ? std::nullopt : JobOffset(machine, job, OffsetName(index));
     if (!values) continue;
     Offset& offset = offsets_[static_cast<std::size_t>(index)];
     offset.stated = (1U << kNumAxes) - 1;
-    for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
-      if (const auto found = values->find(kLetters[axis]); found != values->end()) {
-        offset.values[axis] = found->second;
-      }
-    }
+    offset.values = *values;
   }
   for (const machine::Tool& tool : tools.tools) {
     if (tool.number < 1 || tool.number > kMaxToolOffset) continue;
@@ -89,17 +64,6 @@ double HaasRegisters::Tool(ToolRegister which, int number) const {
 void HaasRegisters::SetTool(ToolRegister which, int number, double value) {
   if (number < 1 || number > kMaxToolOffset) return;
   tools_[static_cast<std::size_t>(which)][static_cast<std::size_t>(number)] = value;
-}
-
-int PartFrames::Index(const std::string& name, const AxisValues& values) {
-  const auto [found, is_new] =
-      indices_.try_emplace({name, values}, static_cast<int>(frames_->size()));
-  if (is_new) {
-    std::map<char, double> by_letter;
-    for (std::size_t axis = 0; axis < kNumAxes; ++axis) by_letter[kLetters[axis]] = values[axis];
-    frames_->push_back({name, machine::OffsetFrame(*machine_, by_letter)});
-  }
-  return found->second;
 }
 
 }  // namespace ncsim::control

@@ -4,14 +4,9 @@
 #pragma once
 
 #include <array>
-#include <map>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "sim/control/command.h"
-#include "sim/control/controller.h"
 #include "sim/machine/job.h"
 #include "sim/machine/machine.h"
 #include "sim/machine/tool.h"
@@ -52,20 +47,6 @@ class HaasRegisters {
   std::array<Offset, kNumWorkOffsets> offsets_;
   AxisValues at_mount_{};  ///< Gauge line on the table's mount, rotary axes at 0.
   std::array<std::array<double, kMaxToolOffset + 1>, 4> tools_{};
-};
-
-/// The part frames that motions refer to: one for each set of values that was in force.
-class PartFrames {
- public:
-  PartFrames(const machine::Machine& machine, std::vector<PartFrame>* frames)
-      : machine_(&machine), frames_(frames) {}
-  /// Index of the frame with these machine values; made when it is new.
-  int Index(const std::string& name, const AxisValues& values);
-
- private:
-  const machine::Machine* machine_;
-  std::vector<PartFrame>* frames_;
-  std::map<std::pair<std::string, AxisValues>, int> indices_;
 };
 
 }  // namespace ncsim::control

@@ -276,7 +276,7 @@ TEST(HaasRules, CompensationShiftsThePath) {
 
 TEST(HaasRules, AnotherControlIsNotSimulated) {
   TestControl control;
-  control.machine.control.dialect = "sinumerik-840d";
+  control.machine.control.dialect = "no-such-control";
   const TestRun run = control.Run("G0 X1.\n");
   EXPECT_TRUE(run.Has(Rule::kUnsupportedCode));
   EXPECT_FALSE(run.summary.finished);

@@ -13,26 +13,11 @@
 #include "sim/control/cycles.h"
 #include "sim/control/rapid.h"
 #include "sim/control/run_log.h"
-#include "sim/machine/job.h"
+#include "sim/control/setting_source.h"
 #include "sim/machine/machine.h"
 #include "sim/nc/program.h"
 
 namespace ncsim::control {
-
-/// Looks settings up by the control's own name: the job first, then the model. A value is text in
-/// the model format's normal form (docs/model-format.md): lengths in mm, angles in degrees.
-class SettingSource {
- public:
-  SettingSource(const machine::Machine& machine, const machine::Job& job)
-      : machine_(&machine), job_(&job) {}
-  std::optional<std::string> Text(std::string_view name) const;
-  std::optional<double> Number(std::string_view name) const;
-  std::optional<bool> Switch(std::string_view name) const;
-
- private:
-  const machine::Machine* machine_;
-  const machine::Job* job_;
-};
 
 struct HaasSettings {
   bool inch = true;                              ///< 9.

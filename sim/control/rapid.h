@@ -8,12 +8,6 @@
 
 namespace ncsim::control {
 
-enum class RapidMode {
-  kIndependent,   ///< NONE: each axis at its own rate; the block ends when all have arrived.
-  kLinearXyz,     ///< LINEAR (XYZ): X, Y, Z in a straight line, rotary axes independent.
-  kLinearRotary,  ///< LINEAR + ROTARY: all arrive together.
-};
-
 /// The dog-leg from `q0` to `q1`. Axes of a group get the same duration and ramp: rate and
 /// acceleration of the group are the greatest that no axis of it exceeds.
 motion::DogLeg MakeRapid(const AxisMap& axes, RapidMode mode, const JointVector& q0,

@@ -26,6 +26,8 @@ constexpr double kRests = 1e-9;
 constexpr double kRounding = 1e-6;
 // rad: an arc that is no full circle and ends this near its start is a point.
 constexpr double kNoSweep = 1e-9;
+// A normal that is an axis but for rounding: that axis runs along the helix.
+constexpr double kAlongAxis = 1e-12;
 
 Eigen::Vector3d Linear(const AxisValues& values) { return {values[kX], values[kY], values[kZ]}; }
 
@@ -83,6 +85,29 @@ bool IsTcp(const Command& command) {
   return command.frame->rotation == Frame::Rotation::kTcp && !IsMachine(command);
 }
 
+// The linear axes that a frame moves with those named.
+std::uint8_t Coupled(const Eigen::Matrix3d& linear, std::uint8_t named) {
+  std::uint8_t moved = 0;
+  for (int from = 0; from < 3; ++from) {
+    for (int to = 0; to < 3; ++to) {
+      const bool moves = (named & 1U << from) != 0 && linear(to, from) != 0.0;
+      if (moves) moved |= static_cast<std::uint8_t>(1U << to);
+    }
+  }
+  return moved;
+}
+
+// The arc's normal in program coordinates.
+Eigen::Vector3d NormalOf(const Command& command) {
+  if (!command.arc_normal.isZero(0.0)) return command.arc_normal;
+  return Eigen::Vector3d::Unit(AxesOf(command.plane).normal);
+}
+
+// Where a frame leads the normal of a plane: the vector that stays square to it.
+Eigen::Vector3d LeadNormal(const Eigen::Matrix3d& linear, const Eigen::Vector3d& normal) {
+  return (linear.inverse().transpose() * normal).normalized();
+}
+
 // The axes that the command moves: those named, and what the frame couples with them.
 std::uint8_t MovingAxes(const Command& command, bool track_tcp_rapids) {
   std::uint8_t named = command.named;
@@ -90,13 +115,10 @@ std::uint8_t MovingAxes(const Command& command, bool track_tcp_rapids) {
   const PlaneAxes plane = AxesOf(command.plane);
   if (command.kind == CommandKind::kArc) {
     named |= static_cast<std::uint8_t>(1U << plane.first | 1U << plane.second);
+    if (!command.arc_normal.isZero(0.0)) named |= kLinearBits;
   }
   const Frame& frame = *command.frame;
-  if (frame.g68) {
-    const PlaneAxes turned = AxesOf(frame.g68_plane);
-    const auto both = static_cast<std::uint8_t>(1U << turned.first | 1U << turned.second);
-    if ((named & both) != 0) named |= both;
-  }
+  if (frame.program.active) named |= Coupled(frame.program.linear, named);
   if (IsTcp(command) &&
       (command.kind != CommandKind::kRapid || track_tcp_rapids || (named & kLinearBits) != 0)) {
     named |= kLinearBits;
@@ -160,7 +182,8 @@ void ToMotion::SetFacts(const Command& command) {
   facts.offset = command.frame->offset_index;
   facts.cycle = command.cycle;
   facts.names_linear = !IsMachine(command) && (command.named & kLinearBits) != 0;
-  facts.corner_rounding = 0.0;
+  facts.corner_rounding = facts.orientation_tolerance = 0.0;
+  facts.wrap_note = command.wrap_note;
 }
 
 void ToMotion::Execute(const Command& command) {
@@ -182,7 +205,10 @@ void ToMotion::Execute(const Command& command) {
     if (q1 != q_) Rapid(command, q1);
     return;
   }
-  if (!command.exact_stop) motion_.facts.corner_rounding = command.corner_rounding;
+  if (!command.exact_stop) {
+    motion_.facts.corner_rounding = command.corner_rounding;
+    motion_.facts.orientation_tolerance = command.orientation_tolerance;
+  }
   const bool tcp = IsTcp(command);
   if (command.kind == CommandKind::kArc) {
     tcp ? TcpArc(command, q1) : Arc(command, q1);
@@ -194,11 +220,11 @@ void ToMotion::Execute(const Command& command) {
 void ToMotion::Rapid(const Command& command, const JointVector& q1) {
   if (IsTcp(command) && options_.track_tcp_rapids) {
     motion::TcpCurve curve;
-    SetCurve(command, q1, &curve);
+    if (!SetCurve(command, q1, &curve)) return;
     motion_.path = std::move(curve);
     motion_.duration = TcpTime(motion_);
   } else {
-    motion::DogLeg rapid = MakeRapid(frames_->axes(), options_.rapid, q_, q1);
+    motion::DogLeg rapid = MakeRapid(frames_->axes(), command.rapid, q_, q1);
     motion_.duration = motion::Duration(rapid);
     motion_.path = std::move(rapid);
   }
@@ -220,7 +246,7 @@ double ToMotion::RotaryLength(const JointVector& q1) const {
   return std::sqrt(square);
 }
 
-// Without TCP a control does not slow down for an axis: it stops with an alarm (Haas NGC Mill
+// Without TCP a Haas control does not slow down for an axis: it stops with an alarm (Haas NGC Mill
 // Operator's Manual 2017, G01). Where the diameter of a rotary axis is not stated, its speed is a
 // guess, and the block takes longer instead. `most`: the way of each axis if it kept its top speed.
 bool ToMotion::CheckRates(const Command& command, const JointVector& most, double rotary) {
@@ -232,7 +258,7 @@ bool ToMotion::CheckRates(const Command& command, const JointVector& most, doubl
     const bool guessed = data.rotary && rotary > 0.0 &&
                          command.feed_mode != Command::FeedMode::kInverseTime &&
                          !(options_.rotary_diameter[static_cast<std::size_t>(axis - kA)] > 0.0);
-    if (guessed) {
+    if (guessed || options_.slows_down) {
       motion_.duration = way / data.rapid;
       continue;
     }
@@ -268,7 +294,7 @@ void ToMotion::Feed(const Command& command, const JointVector& q1) {
     const double way = q1[axes.joint(axis)] - q_[axes.joint(axis)];
     square += way * way;
   }
-  const double rotary = RotaryLength(q1);
+  const double rotary = options_.rotary_follows && square > 0.0 ? 0.0 : RotaryLength(q1);
   if (!FeedTime(command, std::sqrt(square), rotary)) return;
   if (!CheckRates(command, (q1 - q_).cwiseAbs(), rotary)) return;
   motion_.path = motion::AxisLinear{q_, q1};
@@ -283,20 +309,22 @@ void ToMotion::Arc(const Command& command, const JointVector& q1) {
   }
   AxisValues about = command.end;
   for (std::size_t i = 0; i < 3; ++i) about[i] = command.centre[static_cast<int>(i)];
-  const PlaneAxes plane = AxesOf(command.plane);
   motion::AxisArc arc;
   arc.q0 = q_;
   arc.q1 = q1;
   arc.linear = {axes.joint(kX), axes.joint(kY), axes.joint(kZ)};
-  const Eigen::Vector3d normal = Eigen::Vector3d::Unit(plane.normal);
+  const Eigen::Matrix3d& linear = command.frame->program.linear;
+  const Eigen::Vector3d normal = LeadNormal(linear, NormalOf(command));
+  const bool mirrored = linear.determinant() < 0.0;
   const Circle circle = CircleThrough(Linear(axes.Values(q_)), Linear(axes.Values(q1)),
                                       Linear(frames_->ToMachine(command.frame, about)), normal,
-                                      command.clockwise, command.full_circle);
+                                      command.clockwise != mirrored, command.full_circle);
   CopyCircle(circle, &arc);
-  const double rotary = RotaryLength(q1);
+  const double rotary = options_.rotary_follows ? 0.0 : RotaryLength(q1);
   if (!FeedTime(command, circle.Length(), rotary)) return;
   JointVector most = (q1 - q_).cwiseAbs();
-  for (const int axis : {plane.first, plane.second}) {
+  for (int axis = kX; axis <= kZ; ++axis) {
+    if (std::abs(normal[axis]) > 1.0 - kAlongAxis) continue;
     most[axes.joint(axis)] = std::min(circle.radius * std::abs(circle.sweep), circle.Length());
   }
   if (!CheckRates(command, most, rotary)) return;
@@ -304,7 +332,8 @@ void ToMotion::Arc(const Command& command, const JointVector& q1) {
   Send(command, MotionKind::kArc);
 }
 
-void ToMotion::SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve) {
+// False: the tool axis cannot be led there, and it has been said why.
+bool ToMotion::SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve) {
   curve->frame = frames_->Tcp(command.frame);
   curve->q0 = q_;
   curve->q1 = q1;
@@ -312,6 +341,31 @@ void ToMotion::SetCurve(const Command& command, const JointVector& q1, motion::T
   curve->frame->control.TipInTable(q_, curve->frame->length, &curve->p0_B, &u_B);
   curve->p1_B = frames_->InTable(command.frame).Point(Linear(command.end));
   curve->centre = curve->e1 = curve->e2 = curve->pitch = curve->end_error = Eigen::Vector3d::Zero();
+  return command.orientation == Orientation::kAxes || LeadToolAxis(command, curve);
+}
+
+bool ToMotion::LeadToolAxis(const Command& command, motion::TcpCurve* curve) {
+  using kinematics::GreatCircle;
+  const std::vector<int>& rotary = curve->frame->control.rotary();
+  const bool turns = std::any_of(rotary.begin(), rotary.end(),
+                                 [&](int joint) { return curve->q1[joint] != q_[joint]; });
+  if (!turns || rotary.size() < 2) return true;
+  auto circle = std::make_shared<GreatCircle>();
+  const std::array<double, 2> from = {q_[rotary[0]], q_[rotary[1]]};
+  const GreatCircle::Fault fault = GreatCircle::Make(
+      curve->frame->control, from, {curve->q1[rotary[0]], curve->q1[rotary[1]]}, circle.get());
+  if (fault == GreatCircle::Fault::kNoTurn) return true;
+  if (fault != GreatCircle::Fault::kNone || circle->start() != from) {
+    log_->Report(Rule::kUnsupportedCode, command.where,
+                 "the tool axis on a great circle through the pole, or to the other solution of "
+                 "the rotary axes, was not simulated; the program was not followed any further");
+    log_->Stop();
+    return false;
+  }
+  for (std::size_t i = 0; i < 2; ++i) curve->q1[rotary[i]] = circle->end()[i];
+  curve->frame->control.SolveLinear(curve->p1_B, curve->frame->length, &curve->q1);
+  curve->great_circle = std::move(circle);
+  return true;
 }
 
 // The time that the slowest axis needs.
@@ -326,9 +380,10 @@ double ToMotion::TcpTime(const motion::Motion& motion) const {
 
 void ToMotion::TcpFeed(const Command& command, const JointVector& q1) {
   motion::TcpCurve curve;
-  SetCurve(command, q1, &curve);
+  if (!SetCurve(command, q1, &curve)) return;
   const double length = (curve.p1_B - curve.p0_B).norm();
-  if (!FeedTime(command, length, 0.0)) return;
+  const bool turns_only = options_.rotary_follows && length < kRests;
+  if (!FeedTime(command, length, turns_only ? RotaryLength(curve.q1) : 0.0)) return;
   motion_.path = std::move(curve);
   motion_.duration = std::max(motion_.duration, TcpTime(motion_));
   Send(command, MotionKind::kFeed);
@@ -336,12 +391,12 @@ void ToMotion::TcpFeed(const Command& command, const JointVector& q1) {
 
 void ToMotion::TcpArc(const Command& command, const JointVector& q1) {
   motion::TcpCurve curve;
-  SetCurve(command, q1, &curve);
+  if (!SetCurve(command, q1, &curve)) return;
   const ProgramInTable& in_table = frames_->InTable(command.frame);
-  const Eigen::Vector3d normal = Eigen::Vector3d::Unit(AxesOf(command.plane).normal);
-  const Circle circle =
-      CircleThrough(curve.p0_B, curve.p1_B, in_table.Point(command.centre), in_table.Vector(normal),
-                    command.clockwise, command.full_circle);
+  const bool mirrored = in_table.linear.determinant() < 0.0;
+  const Circle circle = CircleThrough(curve.p0_B, curve.p1_B, in_table.Point(command.centre),
+                                      LeadNormal(in_table.linear, NormalOf(command)),
+                                      command.clockwise != mirrored, command.full_circle);
   curve.arc = true;
   CopyCircle(circle, &curve);
   if (!FeedTime(command, circle.Length(), 0.0)) return;

@@ -15,12 +15,15 @@
 namespace ncsim::control {
 
 struct MotionOptions {
-  RapidMode rapid = RapidMode::kIndependent;
   bool track_tcp_rapids = false;  ///< TCP rapids keep the tip on its line; else dog-legs.
   /// Feed per minute of a rotary axis without TCP: diameter (mm) at which A, B, C run at the feed
   /// (settings 34, 79). 0: a degree counts as `degree_counts_as`.
   std::array<double, 3> rotary_diameter{};
   double degree_counts_as = 1.0;  ///< mm: one unit of the feed's length (1 mm, or 25.4 mm).
+  /// Rotary axes count for the feed only where no linear axis moves (SINUMERIK: FGROUP).
+  bool rotary_follows = false;
+  /// A feed that an axis cannot follow takes longer; else the control stops with an alarm.
+  bool slows_down = false;
 };
 
 class ToMotion {
@@ -47,7 +50,8 @@ class ToMotion {
   void TcpFeed(const Command& command, const JointVector& q1);
   void Arc(const Command& command, const JointVector& q1);
   void TcpArc(const Command& command, const JointVector& q1);
-  void SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve);
+  bool SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve);
+  bool LeadToolAxis(const Command& command, motion::TcpCurve* curve);
   double TcpTime(const motion::Motion& motion) const;
   double RotaryLength(const JointVector& q1) const;
   bool FeedTime(const Command& command, double length, double rotary);

@@ -113,6 +113,11 @@ struct Facts {
   bool names_linear = false;  ///< The block names X, Y or Z (what the trace is held against).
   double corner_rounding =
       0.0;  ///< mm: how far the control may leave the programmed corner at this motion's ends.
+  /// rad: how far smoothing may turn the tool away from the programmed orientation.
+  double orientation_tolerance = 0.0;
+  /// What decides at this control how a rotary axis gets from one turn to the next; for people, and
+  /// static.
+  std::string_view wrap_note;
 };
 
 struct Motion {

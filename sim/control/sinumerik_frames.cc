@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Settable and programmable frames, TRAORI and TRAFOOF: all that makes the frame of a command (NC
+// programming 12/2019, "Coordinate transformations (frames)").
+#include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
+
+#include "sim/base/text.h"
+#include "sim/base/units.h"
+#include "sim/control/arc.h"
+#include "sim/control/sinumerik_interpreter.h"
+
+namespace ncsim::control {
+namespace {
+
+// Honest programs have tens; a loop that makes more must not eat memory.
+constexpr int kMaxPartFrames = 100'000;
+constexpr std::string_view kLetters = "XYZABC";
+
+bool IsIdentity(const Eigen::Matrix3d& linear) {
+  return (linear - Eigen::Matrix3d::Identity()).isZero(0.0);
+}
+
+}  // namespace
+
+bool SinumerikInterpreter::Programmable::is_zero() const {
+  return IsIdentity(linear) && shift.isZero(0.0) && rotary == std::array<double, 3>{};
+}
+
+void SinumerikInterpreter::SelectOffset(int index) {
+  modal_.offset = std::max(0, index);
+  modal_.settable = parts_.registers->frame(modal_.offset);
+  cancelled_.clear();
+  new_frame_ = true;
+  frame_dirty_ = true;
+}
+
+/// TRAORI and TRAFOOF move nothing; the frame goes by MD10602, the tool length is taken over.
+void SinumerikInterpreter::CancelFrame(bool traori, const SourcePosition& where) {
+  if (traori && !parts_.frames->can_rotate()) {
+    Unsupported("TRAORI", where, "this model has no five-axis kinematics");
+    return;
+  }
+  if (!Is(kSinComp, "G40")) {
+    Unsupported("TRAORI or TRAFOOF under G41 or G42", where);
+  }
+  std::string cancelled;
+  const bool plain = modal_.program.is_zero();
+  if (modal_.offset != 0) cancelled = SinumerikRegisters::FrameName(modal_.offset);
+  if (!plain) cancelled += cancelled.empty() ? "the programmable frame" : " and its TRANS, ROT ...";
+  if (settings_.frame_keeps_translations) {
+    modal_.settable.turn = {};
+    modal_.settable.scale = {1.0, 1.0, 1.0};
+    modal_.settable.mirror = {};
+    modal_.program.linear.setIdentity();
+  } else if (!settings_.frame_stays) {
+    modal_.codes[kSinOffset] = nc::FindSinumerikCommand("G500");
+    SelectOffset(0);
+    modal_.program = {};
+    cancelled_ = std::move(cancelled);
+  }
+  traori_ = traori;
+  carry_ = {};
+  length_checked_ = false;
+  // The numbers of the old coordinate system mean nothing in the new one.
+  new_frame_ = new_length_ = false;
+  frame_dirty_ = true;
+}
+
+Frame SinumerikInterpreter::MakeFrame() const {
+  const Programmable& program = modal_.program;
+  const Eigen::Matrix3d settable = modal_.settable.Linear();
+  Frame frame;
+  frame.offset = modal_.settable.shift();
+  frame.offset_index =
+      parts_.part_frames->Index(SinumerikRegisters::FrameName(modal_.offset), frame.offset);
+  for (std::size_t i = 0; i < 3; ++i) frame.offset[kA + i] += program.rotary[i];
+  frame.program.linear = settable * program.linear;
+  frame.program.to = settable * program.shift;
+  frame.program.active = !IsIdentity(frame.program.linear) || !frame.program.to.isZero(0.0);
+  frame.tool_length = active_.length;
+  if (traori_) frame.rotation = Frame::Rotation::kTcp;
+  return frame;
+}
+
+/// G53, G153, SUPA: no settable, no programmable frame; the tool length by MD10760.
+Frame SinumerikInterpreter::SuppressedFrame() const {
+  Frame frame;
+  frame.offset_index = parts_.part_frames->Index(SinumerikRegisters::FrameName(0), frame.offset);
+  const bool without_length = (settings_.suppress_length & 1) != 0 &&
+                              ((settings_.suppress_length & 2) == 0 || !edge_in_block_);
+  frame.tool_length = without_length ? 0.0 : active_.length;
+  if (traori_) frame.rotation = Frame::Rotation::kTcp;
+  return frame;
+}
+
+/// Moves nothing: the programmed position is worked out anew from where the machine stands.
+void SinumerikInterpreter::UseFrame(const Frame& frame) {
+  const AxisValues machine = MachinePosition();
+  frame_ = std::make_shared<const Frame>(frame);
+  position_ = parts_.frames->ToProgram(frame_, machine);
+  contour_.SetPosition(position_);
+}
+
+/// With SD42440 and SD42442 an incremental move starts from the numbers that held before, so that
+/// it goes the shift as well.
+void SinumerikInterpreter::RefreshFrame() {
+  const AxisValues before = position_;
+  UseFrame(MakeFrame());
+  const bool carries = (new_frame_ && settings_.incremental_frame) ||
+                       (new_length_ && !new_frame_ && settings_.incremental_tool);
+  for (std::size_t axis = 0; axis < kNumAxes && carries; ++axis) {
+    carry_[axis] += before[axis] - position_[axis];
+  }
+  if (frame_->offset_index >= kMaxPartFrames) {
+    log_.Alarm(Rule::kUnsupportedCode, step_->where, "too many different work offsets in one run");
+  }
+  if (new_frame_) offset_checked_ = false;
+  frame_dirty_ = new_frame_ = new_length_ = false;
+}
+
+/// TRANS, ROT, SCALE, MIRROR delete what was programmed before; the A forms add to it.
+void SinumerikInterpreter::ExecuteFrameStatement(const SinumerikItem& item) {
+  std::string_view name = item.command->name;
+  if (name[0] == 'G') return SetPole(name);
+  const bool adds = name[0] == 'A';
+  if (adds) name.remove_prefix(1);
+  if (!adds) modal_.program = {};
+  if (name == "TRANS") Translate();
+  if (name == "ROT") Rotate(Where(item));
+  if (name == "SCALE") Scale();
+  if (name == "MIRROR") Mirror();
+  if (log_.stopped()) return;
+  if (traori_ && modal_.program.linear.determinant() < 0.0) {
+    Unsupported("MIRROR under TRAORI", Where(item));
+  }
+  new_frame_ = frame_dirty_ = true;
+  RefreshFrame();
+}
+
+void SinumerikInterpreter::Translate() {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < kNumAxes; ++i) {
+    const std::string_view letter = kLetters.substr(i, 1);
+    if (Peek(letter) == nullptr || !axes_.has(static_cast<int>(i))) continue;
+    const SinumerikItem* word = Take(letter);
+    if (word == nullptr) return;
+    if (i < kA) {
+      shift[static_cast<int>(i)] = word->value * mm_;
+    } else {
+      modal_.program.rotary[i - kA] += Radians(word->value);
+    }
+  }
+  modal_.program.shift += modal_.program.linear * shift;
+}
+
+void SinumerikInterpreter::Rotate(const SourcePosition& where) {
+  std::array<double, 3> angles{};
+  int given = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (Peek(kLetters.substr(i, 1)) == nullptr) continue;
+    const SinumerikItem* word = Take(kLetters.substr(i, 1));
+    if (word == nullptr) return;
+    angles[i] = Radians(word->value);
+    if (word->value != 0.0) ++given;
+  }
+  if (Peek("RPL") != nullptr) {
+    const SinumerikItem* word = Take("RPL");
+    if (word == nullptr) return;
+    angles[static_cast<std::size_t>(AxesOf(plane_).normal)] = Radians(word->value);
+    ++given;
+  }
+  if (given > 1 && !settings_.rpy) {
+    Unsupported("ROT with more than one angle and MD10600 = 2", where);
+  }
+  modal_.program.linear = modal_.program.linear * SinumerikRotation(angles);
+}
+
+void SinumerikInterpreter::Scale() {
+  for (int i = 0; i < 3; ++i) {
+    const std::string_view letter = kLetters.substr(static_cast<std::size_t>(i), 1);
+    if (Peek(letter) == nullptr) continue;
+    const SinumerikItem* word = Take(letter);
+    if (word == nullptr) return;
+    if (!(word->value > 0.0)) {
+      Alarm(Where(*word), 12160, "SCALE needs a factor above 0");
+      return;
+    }
+    modal_.program.linear.col(i) *= word->value;
+  }
+}
+
+/// The value of the word means nothing.
+void SinumerikInterpreter::Mirror() {
+  for (int i = 0; i < 3; ++i) {
+    const std::string_view letter = kLetters.substr(static_cast<std::size_t>(i), 1);
+    if (Peek(letter) != nullptr && Take(letter) != nullptr) modal_.program.linear.col(i) *= -1.0;
+  }
+}
+
+/// G110, G111, G112: the pole of AP and RP, from the position, the zero, the last pole.
+void SinumerikInterpreter::SetPole(std::string_view name) {
+  const PlaneAxes plane = AxesOf(plane_);
+  const int axes[2] = {plane.first, plane.second};
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  if (name == "G110") {
+    from = {position_[static_cast<std::size_t>(axes[0])],
+            position_[static_cast<std::size_t>(axes[1])]};
+  }
+  if (name == "G112") from = pole_;
+  if (Peek("RP") != nullptr && Peek("AP") != nullptr) {
+    const SinumerikItem* radius = Take("RP");
+    const SinumerikItem* angle = Take("AP");
+    if (radius == nullptr || angle == nullptr) return;
+    const double a = Radians(angle->value);
+    pole_ = from + radius->value * mm_ * Eigen::Vector2d(std::cos(a), std::sin(a));
+    return;
+  }
+  pole_ = from;
+  for (int i = 0; i < 2; ++i) {
+    const std::string_view letter = kLetters.substr(static_cast<std::size_t>(axes[i]), 1);
+    if (Peek(letter) == nullptr) continue;
+    const SinumerikItem* word = Take(letter);
+    if (word != nullptr) pole_[i] += word->value * mm_;
+  }
+}
+
+/// Before a motion of X, Y or Z that frames act on: is the offset known, and still there?
+void SinumerikInterpreter::BeforeLinearMotion() {
+  if (suppress_ != nullptr) return;
+  if (!cancelled_.empty()) {
+    log_.Alarm(Rule::kFrameCancelled, step_->where,
+               std::string(traori_ ? "TRAORI" : "TRAFOOF") + " has cancelled " + cancelled_ +
+                   " (MD10602), and nothing was selected since: X Y Z would be machine "
+                   "coordinates; the program was not followed any further");
+    return;
+  }
+  if (!offset_checked_) {
+    offset_checked_ = true;
+    if (!modal_.settable.stated) {
+      const std::string name = SinumerikRegisters::FrameName(modal_.offset);
+      const AxisValues w = modal_.settable.shift();
+      log_.Assume("offset " + name,
+                  "the job does not state " + name + ": X" + Fixed(w[kX], 3) + " Y" +
+                      Fixed(w[kY], 3) + " Z" + Fixed(w[kZ], 3) + ", the middle of the table",
+                  true);
+    }
+  }
+  if (!length_checked_) CheckToolLength();
+}
+
+}  // namespace ncsim::control

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The SINUMERIK 840D sl control: executes the blocks that the flow hands out. Keeps modal state and
+// the programmed position; sends commands through the contour stage to ToMotion. NC programming
+// 12/2019; machine data by number.
+//
+// Order within a block: G codes, S F T D, tool change, predefined subprograms, frame; then a
+// statement that gives the words another meaning (TRANS, G4 ...), or motion; M0 to M30 at the end.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/control/command.h"
+#include "sim/control/contour.h"
+#include "sim/control/frames.h"
+#include "sim/control/part_frames.h"
+#include "sim/control/run_log.h"
+#include "sim/control/sinumerik_arc.h"
+#include "sim/control/sinumerik_flow.h"
+#include "sim/control/sinumerik_registers.h"
+#include "sim/control/sinumerik_settings.h"
+#include "sim/control/to_motion.h"
+#include "sim/machine/machine.h"
+#include "sim/machine/tool.h"
+#include "sim/nc/sinumerik_commands.h"
+
+namespace ncsim::control {
+
+/// G groups that the interpreter asks for (NC programming 12/2019, "G functions").
+enum SinumerikGroup {
+  kSinMotion = 1,
+  kSinAction = 2,  ///< G4, G74 ...
+  kSinFrame = 3,   ///< TRANS, ROT, G110 ...
+  kSinPlane = 6,
+  kSinComp = 7,
+  kSinOffset = 8,
+  kSinSuppress = 9,
+  kSinExactStop = 10,
+  kSinExactStopHere = 11,
+  kSinUnits = 13,
+  kSinDistance = 14,
+  kSinFeedMode = 15,
+  kSinOrientationSystem = 25,
+  kSinCompressor = 30,
+  kSinOrientationAngles = 50,
+  kSinOrientationPath = 51,
+  kSinRapid = 55,
+  kNumSinGroups = 65
+};
+
+class SinumerikInterpreter {
+ public:
+  struct Parts {
+    const machine::Machine* machine;
+    const machine::ToolTable* tools;
+    const SinumerikSettings* settings;
+    SinumerikRegisters* registers;
+    PartFrames* part_frames;
+    Frames* frames;
+    ToMotion* to_motion;
+    RunLog* log;
+  };
+  /// All parts outlive this. `motionless_m`: M codes that move nothing at this machine.
+  SinumerikInterpreter(const Parts& parts, std::vector<int> motionless_m, int start_tool);
+
+  void Execute(SinumerikStep* step);
+  /// The block executed last moved the path: a modal call follows it.
+  bool moved() const { return moved_; }
+  /// A cycle, called in a block or by MCALL behind one.
+  void ExecuteCycle(const nc::SinumerikCommand& cycle,
+                    std::span<const nc::SinumerikValue> arguments, SourcePosition where);
+  /// A subprogram with SAVE begins, and ends: modal G codes and the programmable frame.
+  void Save();
+  void Restore();
+  void Finish();
+
+  // What system variables show.
+  AxisValues MachinePosition();
+  const AxisValues& program_position() const { return position_; }
+  const Frame& frame() const { return *frame_; }
+  const SinumerikRegisters& registers() const { return *parts_.registers; }
+  int tool() const { return tool_; }
+  int next_tool() const { return next_tool_; }
+  int edge() const { return edge_; }
+  double tool_radius() const { return active_.radius; }
+  double feed_word() const { return feed_word_; }
+  double spindle_rpm() const { return rpm_; }
+  int spindle() const { return spindle_; }
+  bool transforms() const { return traori_; }
+  int settable_frame() const { return modal_.offset; }
+
+ private:
+  /// The programmable frame: X, Y, Z by an affine frame, rotary axes by a shift.
+  struct Programmable {
+    Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+    std::array<double, 3> rotary{};
+    bool is_zero() const;
+  };
+  /// What SAVE keeps.
+  struct Modal {
+    std::array<const nc::SinumerikCommand*, kNumSinGroups> codes{};
+    int offset = 0;          ///< Of $P_UIFR.
+    SettableFrame settable;  ///< As it was when it was selected.
+    Programmable program;
+  };
+  enum class MotionMode { kRapid, kLine, kClockwise, kCounterClockwise, kThroughPoint, kTangent };
+
+  // sinumerik_interpreter.cc: blocks and modal state
+  void ApplyCodes();
+  void ApplyCode(SinumerikItem* item);
+  void UpdateModes();
+  void UpdatePrototype();
+  void UpdateTolerance();
+  void ApplyTechnology();
+  void ApplyM(bool at_end);
+  void ExecuteM(int code, const SinumerikItem& item);
+  void ExecuteCalls();
+  void ReportLeftovers();
+  bool Is(int group, std::string_view name) const;
+  SinumerikItem* Take(std::string_view name);
+  SinumerikItem* Peek(std::string_view name);
+  void TakeAll();
+  SourcePosition Where(const SinumerikItem& item) const;
+  bool Alarm(const SourcePosition& where, int number, std::string text);
+  void Unsupported(std::string_view name, const SourcePosition& where, std::string why = "");
+
+  // sinumerik_frames.cc
+  // sinumerik_frames.cc
+  static int OffsetIndex(std::string_view name);  // -1: none
+  void SelectOffset(int index);
+  void CancelFrame(bool traori, const SourcePosition& where);
+  Frame MakeFrame() const;
+  Frame SuppressedFrame() const;
+  void RefreshFrame();
+  void UseFrame(const Frame& frame);
+  void ExecuteFrameStatement(const SinumerikItem& item);
+  void Translate();
+  void Rotate(const SourcePosition& where);
+  void Scale();
+  void Mirror();
+  void SetPole(std::string_view name);
+  void BeforeLinearMotion();
+
+  // sinumerik_tools.cc
+  void ApplyToolWord(SinumerikItem* item);
+  void ApplyEdge(SinumerikItem* item);
+  void SelectEdge(int edge, const SourcePosition& where);
+  void ChangeTool(const SourcePosition& where);
+  void CheckToolLength();
+
+  // sinumerik_motion.cc
+  void ExecuteAction(const SinumerikItem& item);
+  void Dwell();
+  void ReferencePoint();
+  void ExecuteMotion();
+  bool TakeTargets(AxisValues* end, unsigned* named);
+  bool LinearTarget(int axis, const SinumerikItem& item, double* value);
+  bool RotaryTarget(int axis, const SinumerikItem& item, double* value);
+  bool ModuloTarget(int axis, const SinumerikItem& item, double* value);
+  bool TakePolar(AxisValues* end, unsigned* named);
+  bool TakeArcWords(SinumerikArcWords* words);
+  bool CheckFeed();
+  void Move(const AxisValues& end, unsigned named);
+  void MoveOnArc(const SinumerikArcWords& words);
+  bool CheckArcFrame();
+  void Push();
+  void PushMachine(CommandKind kind, unsigned named, const AxisValues& target);
+
+  // sinumerik_orientation.cc
+  bool TakeOrientation(AxisValues* end, unsigned* named);
+  std::optional<Eigen::Vector3d> TakeToolAxis();
+  bool Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named);
+  bool vector_path() const;
+  std::string_view WrapNote() const;
+
+  // sinumerik_cycles.cc
+  void HighSpeedSettings(std::span<const nc::SinumerikValue> arguments,
+                         const SourcePosition& where);
+
+  Parts parts_;
+  const SinumerikSettings& settings_;
+  RunLog& log_;
+  const AxisMap& axes_;
+  const std::vector<int> motionless_m_;
+  Contour contour_;
+
+  SinumerikStep* step_ = nullptr;
+  const SinumerikItem* statement_ = nullptr;        ///< Of group 2 or 3: takes the block's words.
+  const nc::SinumerikCommand* suppress_ = nullptr;  ///< G53, G153, SUPA.
+  bool exact_stop_here_ = false, has_codes_ = false, feed_in_block_ = false, edge_in_block_ = false;
+  bool moved_ = false;
+
+  Modal modal_;
+  std::vector<Modal> saved_;
+  MotionMode motion_ = MotionMode::kLine;
+  Plane plane_ = Plane::kXY;
+  bool incremental_ = false;
+  double mm_ = 1.0;       ///< Of a unit of length as programmed.
+  double feed_mm_ = 1.0;  ///< Likewise of F.
+
+  std::shared_ptr<const Frame> frame_;
+  bool frame_dirty_ = false;
+  bool new_frame_ = false, new_length_ = false;  ///< What made it so.
+  bool traori_ = false;
+  std::string
+      cancelled_;  ///< The frame that TRAORI or TRAFOOF cancelled, and nobody selected again.
+  AxisValues position_{};  ///< Programmed position, program coordinates of frame_.
+  AxisValues carry_{};     ///< What the next incremental move of an axis goes beside its own way.
+  Eigen::Vector2d pole_ = Eigen::Vector2d::Zero();
+  Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();  ///< At the end of the last motion.
+  Command command_;                                    ///< Carries the modal facts; reused.
+
+  double feed_word_ = 0.0, rpm_ = 0.0;
+  int spindle_ = 0;
+  int tool_ = 0, next_tool_ = -1, edge_ = 0;
+  EdgeData active_;
+  double contour_tolerance_ = 0.0, orientation_tolerance_ = 0.0;  ///< CYCLE832. mm, rad.
+  std::optional<double> ctol_, otol_, adis_;
+  bool offset_checked_ = false, length_checked_ = false, no_tool_reported_ = false;
+};
+
+}  // namespace ncsim::control

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion: G0-G3, CIP, CT, AC IC DC ACP ACN, polar coordinates, G4, G74 (NC programming 12/2019,
+// "Motion commands").
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/base/text.h"
+#include "sim/base/units.h"
+#include "sim/control/arc.h"
+#include "sim/control/sinumerik_interpreter.h"
+
+namespace ncsim::control {
+namespace {
+
+using Modifier = nc::SinumerikModifier;
+
+constexpr unsigned kLinear = 1U << kX | 1U << kY | 1U << kZ;
+constexpr double kTurn = 360.0;
+// deg: a modulo axis this near to the end of a turn stands at its end.
+constexpr double kSameAngle = 1e-7;
+// Beyond this TURN= is a mistake (NC programming 12/2019, p. 205).
+constexpr double kMaxTurns = 999.0;
+constexpr std::string_view kLetters = "XYZABC";
+
+}  // namespace
+
+/// G4 and what approaches a point of the machine: alone in the block.
+void SinumerikInterpreter::ExecuteAction(const SinumerikItem& item) {
+  item.command->name == "G4" ? Dwell() : ReferencePoint();
+}
+
+void SinumerikInterpreter::Dwell() {
+  const bool seconds = Peek("F") != nullptr;
+  if (!seconds && Peek("S") == nullptr) {
+    Alarm(step_->where, 12080, "G4 needs F or S");
+    return;
+  }
+  const SinumerikItem* item = Take(seconds ? "F" : "S");
+  if (item == nullptr) return;
+  double time = std::max(0.0, item->value);
+  if (!seconds) time = rpm_ > 0.0 ? 60.0 * time / rpm_ : 0.0;
+  command_.kind = CommandKind::kDwell;
+  command_.dwell = time;
+  command_.end = position_;
+  contour_.Push(command_);
+}
+
+/// G74 X=0 Y=0: to the reference point of each axis that is named.
+void SinumerikInterpreter::ReferencePoint() {
+  if (traori_) {
+    Alarm(step_->where, 16918, "G74 for axes of an active transformation");
+    return;
+  }
+  AxisValues target{};
+  unsigned named = 0;
+  for (int axis = kX; axis < kNumAxes; ++axis) {
+    const std::size_t i = static_cast<std::size_t>(axis);
+    const std::string machine_axis = {kLetters[i], '1'};
+    for (const std::string& name : {std::string(1, kLetters[i]), machine_axis}) {
+      if (!axes_.has(axis) || Peek(name) == nullptr) continue;
+      if (Take(name) == nullptr) return;
+      named |= 1U << axis;
+      target[i] = axes_.data(axis).home;
+    }
+  }
+  log_.Assume("reference point", "G74 goes to the model's home position", false);
+  PushMachine(CommandKind::kMachineRapid, named, target);
+}
+
+void SinumerikInterpreter::PushMachine(CommandKind kind, unsigned named, const AxisValues& target) {
+  if (log_.stopped()) return;
+  contour_.Flush();
+  command_.kind = kind;
+  command_.named = static_cast<std::uint8_t>(named);
+  command_.end = target;
+  contour_.Push(command_);
+  position_ = parts_.frames->ToProgram(frame_, parts_.to_motion->position());
+  contour_.SetPosition(position_);
+}
+
+void SinumerikInterpreter::ExecuteMotion() {
+  const bool suppressed = suppress_ != nullptr;
+  if (suppressed) {
+    if (!Is(kSinComp, "G40")) Unsupported(suppress_->name, step_->where, "with G41 or G42 active");
+    UseFrame(SuppressedFrame());
+    command_.frame = frame_;
+  }
+  AxisValues end = position_;
+  unsigned named = 0;
+  SinumerikArcWords arc;
+  const bool is_arc = motion_ != MotionMode::kRapid && motion_ != MotionMode::kLine;
+  const bool go = TakeTargets(&end, &named) && TakePolar(&end, &named) &&
+                  TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc));
+  const bool has_arc_words =
+      is_arc && (arc.centre[0] || arc.centre[1] || arc.centre[2] || arc.angle);
+  if (go && (named != 0 || has_arc_words)) {
+    arc.end_named = (named & kLinear) != 0;
+    command_.end = end;
+    if ((named & kLinear) != 0 || is_arc) BeforeLinearMotion();
+    if (!log_.stopped() && (motion_ == MotionMode::kRapid || CheckFeed())) {
+      is_arc ? MoveOnArc(arc) : Move(end, named);
+    }
+  }
+  if (suppressed && !log_.stopped()) UseFrame(MakeFrame());
+}
+
+bool SinumerikInterpreter::TakeTargets(AxisValues* end, unsigned* named) {
+  for (SinumerikItem& item : step_->items) {
+    if (item.kind != SinumerikItemKind::kWord || item.used || item.letter == 0) continue;
+    const std::size_t i = kLetters.find(item.letter);
+    if (i >= kNumAxes || item.extension >= 0 || !axes_.has(static_cast<int>(i))) continue;
+    item.used = true;
+    if (item.is_text) return Alarm(Where(item), 12150, "an axis needs a number");
+    const int axis = static_cast<int>(i);
+    double value = 0.0;
+    if (!(axes_.data(axis).rotary ? RotaryTarget(axis, item, &value)
+                                  : LinearTarget(axis, item, &value))) {
+      return false;
+    }
+    (*end)[i] = value;
+    carry_[i] = 0.0;
+    *named |= 1U << axis;
+  }
+  return true;
+}
+
+bool SinumerikInterpreter::LinearTarget(int axis, const SinumerikItem& item, double* value) {
+  const std::size_t i = static_cast<std::size_t>(axis);
+  const double programmed = item.value * mm_;
+  const bool adds =
+      item.modifier == Modifier::kIc || (item.modifier == Modifier::kNone && incremental_);
+  switch (item.modifier) {
+    case Modifier::kNone:
+    case Modifier::kAc:
+    case Modifier::kIc:
+      *value = adds ? position_[i] + carry_[i] + programmed : programmed;
+      return true;
+    case Modifier::kDc:
+      return Alarm(Where(item), 16800, "DC for an axis that is no modulo axis");
+    case Modifier::kAcp:
+      return Alarm(Where(item), 16810, "ACP for an axis that is no modulo axis");
+    case Modifier::kAcn:
+      return Alarm(Where(item), 16820, "ACN for an axis that is no modulo axis");
+    case Modifier::kCoded:
+    case Modifier::kOutput:
+      break;
+  }
+  Unsupported("a coded position", Where(item));
+  *value = position_[i];
+  return true;
+}
+
+bool SinumerikInterpreter::RotaryTarget(int axis, const SinumerikItem& item, double* value) {
+  const std::size_t i = static_cast<std::size_t>(axis);
+  const bool adds =
+      item.modifier == Modifier::kIc || (item.modifier == Modifier::kNone && incremental_);
+  if (adds) {
+    *value = position_[i] + carry_[i] + Radians(item.value);
+    return true;
+  }
+  if (settings_.rotary[i - kA].modulo && item.modifier != Modifier::kCoded &&
+      item.modifier != Modifier::kOutput) {
+    return ModuloTarget(axis, item, value);
+  }
+  if (item.modifier == Modifier::kNone || item.modifier == Modifier::kAc) {
+    *value = Radians(item.value);
+    return true;
+  }
+  return LinearTarget(axis, item, value);
+}
+
+/// The turn on which a modulo axis gets to a position (MD30455): AC and a plain position stay
+/// within the turn, unless bit 2 makes a plain position go the shortest way.
+bool SinumerikInterpreter::ModuloTarget(int axis, const SinumerikItem& item, double* value) {
+  const std::size_t i = static_cast<std::size_t>(axis);
+  const SinumerikSettings::RotaryAxis& data = settings_.rotary[i - kA];
+  const Modifier modifier =
+      item.modifier == Modifier::kNone && data.shortest ? Modifier::kDc : item.modifier;
+  double target = item.value;
+  if (data.folds) target -= kTurn * std::floor(target / kTurn);
+  const bool plain = item.modifier == Modifier::kNone || item.modifier == Modifier::kAc;
+  if (!(target >= 0.0 && (target < kTurn || (plain && target == kTurn)))) {
+    return Alarm(Where(item), 16830,
+                 std::string(1, kLetters[i]) + Short(item.value, 5) +
+                     " is beyond 0 to 360 of the modulo axis (MD30455 bit 0 = 0)");
+  }
+  const double here = Degrees(position_[i]);
+  double turns = std::floor((here + kSameAngle) / kTurn);
+  if (modifier == Modifier::kDc) turns = std::floor((here - target) / kTurn + 0.5);
+  const double same_turn = target + kTurn * std::floor((here - target) / kTurn);
+  if (modifier == Modifier::kAcp || modifier == Modifier::kAcn) {
+    const bool stays = std::abs(std::remainder(here - target, kTurn)) <= kSameAngle;
+    turns = std::round((same_turn - target) / kTurn);
+    if (stays) turns = std::round((here - target) / kTurn);
+    if (!stays && modifier == Modifier::kAcp) turns += 1.0;
+  }
+  *value = Radians(target) + 2.0 * kPi * turns;
+  return true;
+}
+
+/// AP= and RP=, about the pole; what is not programmed is where the position is.
+bool SinumerikInterpreter::TakePolar(AxisValues* end, unsigned* named) {
+  if (Peek("AP") == nullptr && Peek("RP") == nullptr) return true;
+  const PlaneAxes plane = AxesOf(plane_);
+  const std::size_t first = static_cast<std::size_t>(plane.first);
+  const std::size_t second = static_cast<std::size_t>(plane.second);
+  if ((*named & (1U << first | 1U << second)) != 0) {
+    return Alarm(step_->where, 12080, "AP= or RP= beside an axis of the plane");
+  }
+  const Eigen::Vector2d from = Eigen::Vector2d(position_[first], position_[second]) - pole_;
+  double angle = std::atan2(from.y(), from.x());
+  double radius = from.norm();
+  if (Peek("AP") != nullptr) {
+    const SinumerikItem* item = Take("AP");
+    if (item == nullptr) return false;
+    angle = Radians(item->value) + (item->modifier == Modifier::kIc ? angle : 0.0);
+  }
+  if (Peek("RP") != nullptr) {
+    const SinumerikItem* item = Take("RP");
+    if (item == nullptr) return false;
+    radius = item->value * mm_ + (item->modifier == Modifier::kIc ? radius : 0.0);
+  }
+  (*end)[first] = pole_.x() + radius * std::cos(angle);
+  (*end)[second] = pole_.y() + radius * std::sin(angle);
+  carry_[first] = carry_[second] = 0.0;
+  *named |= 1U << first | 1U << second;
+  return true;
+}
+
+bool SinumerikInterpreter::TakeArcWords(SinumerikArcWords* words) {
+  words->clockwise = motion_ == MotionMode::kClockwise;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string_view letter = std::string_view("IJK").substr(i, 1);
+    if (Peek(letter) == nullptr) continue;
+    const SinumerikItem* item = Take(letter);
+    if (item == nullptr) return false;
+    const double start = item->modifier == Modifier::kAc ? 0.0 : position_[i];
+    words->centre[i] = start + item->value * mm_;
+  }
+  const auto number = [&](std::string_view name, double unit, std::optional<double>* value) {
+    if (Peek(name) == nullptr) return;
+    if (const SinumerikItem* item = Take(name)) *value = item->value * unit;
+  };
+  number("CR", mm_, &words->radius);
+  number("AR", kPi / 180.0, &words->angle);
+  if (motion_ == MotionMode::kTangent) words->tangent = tangent_;
+  if (motion_ != MotionMode::kThroughPoint) return !log_.stopped();
+  Eigen::Vector3d through(position_[kX], position_[kY], position_[kZ]);
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = {"IJK"[i], '1'};
+    if (Peek(name) == nullptr) continue;
+    const SinumerikItem* item = Take(name);
+    if (item == nullptr) return false;
+    const bool adds =
+        item->modifier == Modifier::kIc || (item->modifier == Modifier::kNone && incremental_);
+    through[i] = item->value * mm_ + (adds ? through[i] : 0.0);
+  }
+  words->through = through;
+  return !log_.stopped();
+}
+
+bool SinumerikInterpreter::CheckFeed() {
+  if (tool_ == 0 && !no_tool_reported_) {
+    no_tool_reported_ = true;
+    log_.Report(Rule::kToolMissing, step_->where, "a feed move with no tool in the spindle");
+  }
+  const bool inverse = command_.feed_mode == Command::FeedMode::kInverseTime;
+  if (command_.feed > 0.0 && (!inverse || feed_in_block_)) return true;
+  std::string message = "a feed move without F (alarm 10860)";
+  if (inverse) message = "G93 needs F in every block that feeds (alarm 10860)";
+  if (feed_word_ > 0.0 && !inverse) message = "feed per revolution with the spindle speed 0";
+  log_.Alarm(Rule::kFeedMissing, step_->where, std::move(message));
+  return false;
+}
+
+void SinumerikInterpreter::Move(const AxisValues& end, unsigned named) {
+  command_.kind = motion_ == MotionMode::kRapid ? CommandKind::kRapid : CommandKind::kFeed;
+  command_.end = end;
+  command_.named = static_cast<std::uint8_t>(named);
+  const Eigen::Vector3d way(end[kX] - position_[kX], end[kY] - position_[kY],
+                            end[kZ] - position_[kZ]);
+  Push();
+  if (!way.isZero(0.0)) tangent_ = way;
+}
+
+/// TURN= makes that many circles before, the other axes in proportion.
+void SinumerikInterpreter::MoveOnArc(const SinumerikArcWords& words) {
+  double turns = 0.0;
+  if (Peek("TURN") != nullptr) {
+    const SinumerikItem* item = Take("TURN");
+    if (item == nullptr) return;
+    turns = std::floor(item->value);
+    if (!(turns >= 0.0 && turns <= kMaxTurns)) {
+      Alarm(Where(*item), 12160, "TURN= is not 0 to 999");
+      return;
+    }
+  }
+  const AxisValues start = position_;
+  const std::string error = MakeSinumerikArc(
+      start, words, {settings_.circle_error, settings_.circle_error_factor}, &command_);
+  if (!error.empty()) {
+    log_.Alarm(Rule::kArcError, step_->where, error);
+    return;
+  }
+  if (!CheckArcFrame()) return;
+  unsigned named = 0;
+  for (std::size_t i = 0; i < kNumAxes; ++i) {
+    if (command_.end[i] != start[i]) named |= 1U << i;
+  }
+  const PlaneAxes plane = AxesOf(plane_);
+  named |= 1U << plane.first | 1U << plane.second;
+  command_.named = static_cast<std::uint8_t>(named);
+  const Command last = command_;
+  const Arc arc = ArcOf(start, last);
+  const double all = std::abs(arc.sweep) + 2.0 * kPi * turns;
+  for (double turn = 1.0; turn <= turns && !log_.stopped(); turn += 1.0) {
+    for (std::size_t i = 0; i < kNumAxes; ++i) {
+      command_.end[i] = start[i] + (last.end[i] - start[i]) * (2.0 * kPi * turn / all);
+    }
+    for (const int axis : {plane.first, plane.second}) {
+      command_.end[static_cast<std::size_t>(axis)] = start[static_cast<std::size_t>(axis)];
+    }
+    command_.full_circle = true;
+    Push();
+  }
+  if (log_.stopped()) return;
+  command_ = last;
+  Push();
+  const Eigen::Vector3d radius =
+      Eigen::Vector3d(last.end[kX], last.end[kY], last.end[kZ]) - last.centre;
+  const Eigen::Vector3d normal = last.arc_normal.isZero(0.0)
+                                     ? Eigen::Vector3d(Eigen::Vector3d::Unit(plane.normal))
+                                     : last.arc_normal;
+  tangent_ = last.clockwise ? radius.cross(normal) : normal.cross(radius);
+}
+
+/// False: an arc that is none any more in this frame, and it has been said.
+bool SinumerikInterpreter::CheckArcFrame() {
+  const Eigen::Matrix3d& linear = frame_->program.linear;
+  const Eigen::Matrix3d square = linear.transpose() * linear;
+  constexpr double kRounding = 1e-12;
+  const bool similar =
+      (square - Eigen::Matrix3d::Identity() * square(0, 0)).norm() <= kRounding * square(0, 0);
+  const bool flat = !command_.arc_normal.isZero(0.0);
+  if (similar && !(flat && command_.comp != Command::Comp::kOff)) return true;
+  Unsupported(similar ? "CIP with G41 or G42" : "an arc with different scales of the axes",
+              step_->where);
+  log_.Stop();
+  return false;
+}
+
+void SinumerikInterpreter::Push() {
+  const bool compensates = command_.comp != Command::Comp::kOff;
+  if (compensates && (traori_ || plane_ != Plane::kXY)) {
+    Unsupported("G41 or G42 outside G17, or under TRAORI", step_->where);
+    command_.comp = Command::Comp::kOff;
+  }
+  if (plane_ != Plane::kXY && active_.length != 0.0) {
+    Unsupported("G18 or G19 with a tool length", step_->where,
+                "the control turns the length to the plane's normal");
+  }
+  contour_.Push(command_);
+  position_ = command_.end;
+  moved_ = true;
+  const bool led = traori_ && command_.orientation == Orientation::kVector;
+  if (!led || (command_.named & ~kLinear) == 0) return;
+  // Where the great circle has led the rotary axes to.
+  const AxisValues machine = parts_.to_motion->position();
+  for (std::size_t i = kA; i < kNumAxes; ++i) position_[i] = machine[i] - frame_->offset[i];
+}
+
+}  // namespace ncsim::control

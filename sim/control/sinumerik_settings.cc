@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/control/sinumerik_settings.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace ncsim::control {
+namespace {
+
+struct Meaning {
+  std::string_view name;
+  std::string_view text;
+};
+constexpr std::array<Meaning, 8> kMeanings = {{
+    {"MD10602", "what TRAORI and TRAFOOF do to the active frame (0: cancelled)"},
+    {"MD10760", "whether G53, G153 and SUPA also suppress the tool length (0: no)"},
+    {"MD20150[7]", "the work offset at the start"},
+    {"MD20150[9]", "exact stop or continuous path at the start"},
+    {"MD20270", "the edge after a tool change (1: D1)"},
+    {"MD21104", "what leads the orientation (1: ORIAXES or ORIVECT, 0: ORIMKS or ORIWKS)"},
+    {"MD21180", "a rotary axis that would leave its limits (0: alarm 10720)"},
+    {"MD30455[C]", "how C goes to a position (bit 2 = 0: within 0 to 360, = 1: the shortest way)"},
+}};
+
+std::string MeaningOf(const std::string& name) {
+  for (const Meaning& meaning : kMeanings) {
+    if (meaning.name == name) return ": " + std::string(meaning.text);
+  }
+  return "";
+}
+
+int Whole(const SettingSource& source, const std::string& name, int standard) {
+  const auto value = source.Number(name);
+  return value ? static_cast<int>(std::lround(*value)) : standard;
+}
+
+void ReadRotary(const SettingSource& source, SinumerikSettings* settings) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string index = std::string("[") + "ABC"[i] + "]";
+    SinumerikSettings::RotaryAxis& axis = settings->rotary[i];
+    const auto mask = static_cast<unsigned>(Whole(source, "MD30455" + index, 0));
+    axis.modulo = Whole(source, "MD30310" + index, 0) == 1;
+    axis.folds = (mask & 1U) != 0;
+    axis.shortest = (mask & 4U) != 0;
+  }
+}
+
+}  // namespace
+
+SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
+                                        const machine::Machine& machine, const machine::Job& job,
+                                        RunLog* log) {
+  SinumerikSettings settings;
+  for (const std::string& name : machine.control.nominal_settings) {
+    if (job.control.count(name) != 0) continue;
+    log->Assume(name, source.Text(name).value_or("?") + MeaningOf(name), false);
+  }
+  constexpr int kGroups = 64;
+  for (int group = 1; group <= kGroups; ++group) {
+    const auto code = source.Text("MD20150[" + std::to_string(group - 1) + "]");
+    if (code) settings.start_codes[group] = *code;
+  }
+  ReadRotary(source, &settings);
+  const int frame_mode = Whole(source, "MD10602", 0);
+  settings.rpy = Whole(source, "MD10600", 1) == 1;
+  settings.frame_keeps_translations = frame_mode == 1;
+  settings.frame_stays = frame_mode == 2;
+  settings.suppress_length = Whole(source, "MD10760", 0);
+  settings.edge_after_change = Whole(source, "MD20270", 1);
+  settings.circle_error = source.Number("MD21000").value_or(settings.circle_error);
+  settings.circle_error_factor = source.Number("MD21010").value_or(settings.circle_error_factor);
+  settings.orientation_euler = Whole(source, "MD21100", 1) == 1;
+  settings.orientation_by_g50 = Whole(source, "MD21102", 0) == 1;
+  settings.orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
+  settings.m6_changes = Whole(source, "MD22550", 1) == 1;
+  settings.incremental_frame = Whole(source, "SD42440", 1) == 1;
+  settings.incremental_tool = Whole(source, "SD42442", 1) == 1;
+  settings.optional_stop = source.Switch("optional_stop").value_or(false);
+  if (source.Switch("block_skip").value_or(false)) settings.skip_levels |= 1U;
+  for (unsigned level = 1; level <= 9; ++level) {
+    if (source.Switch("block_skip " + std::to_string(level)).value_or(false)) {
+      settings.skip_levels |= 1U << level;
+    }
+  }
+  return settings;
+}
+
+}  // namespace ncsim::control

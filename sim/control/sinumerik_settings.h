@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Machine and setting data of a SINUMERIK 840D sl that a simulation needs, typed (by their numbers
+// as in the List Manual, detailed machine data). From the job, else the model, else the standard
+// value.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "sim/control/command.h"
+#include "sim/control/run_log.h"
+#include "sim/control/setting_source.h"
+#include "sim/machine/job.h"
+#include "sim/machine/machine.h"
+
+namespace ncsim::control {
+
+struct SinumerikSettings {
+  /// A, B, C.
+  struct RotaryAxis {
+    bool modulo = false;    ///< MD30310.
+    bool shortest = false;  ///< MD30455 bit 2: a plain position goes the shortest way.
+    bool folds = false;     ///< MD30455 bit 0: positions beyond 0..360 are allowed.
+  };
+  std::array<RotaryAxis, 3> rotary{};
+  std::map<int, std::string> start_codes;  ///< MD20150, by G group.
+  bool rpy = true;                         ///< MD10600 = 1.
+  bool frame_keeps_translations = false;   ///< MD10602 = 1.
+  bool frame_stays = false;                ///< MD10602 = 2.
+  int suppress_length = 0;                 ///< MD10760.
+  int edge_after_change = 1;               ///< MD20270.
+  double circle_error = 0.01;              ///< MD21000, mm.
+  double circle_error_factor = 0.001;      ///< MD21010.
+  bool orientation_euler = true;           ///< MD21100.
+  bool orientation_by_g50 = false;         ///< MD21102: group 50 decides on A2, B2, C2.
+  bool orientation_by_g51 = true;          ///< MD21104: group 51 decides on the path, not group 25.
+  bool m6_changes = true;                  ///< MD22550.
+  bool incremental_frame = true;           ///< SD42440: G91 goes a new frame's shift too.
+  bool incremental_tool = true;            ///< SD42442: likewise a new tool's length.
+  unsigned skip_levels = 0;                ///< Bit n: `/n` is left out.
+  bool optional_stop = false;
+};
+
+/// Reads what job and model state; those that the model calls nominal and the job does not state
+/// become assumptions.
+SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
+                                        const machine::Machine& machine, const machine::Job& job,
+                                        RunLog* log);
+
+}  // namespace ncsim::control
