@@ -6,11 +6,15 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "sim/base/units.h"
 #include "sim/control/haas_settings.h"
+#include "sim/control/setting_source.h"
+#include "sim/control/sinumerik_840d.h"
 #include "sim/machine/tool_library.h"
 #include "sim/nc/header_tools.h"
+#include "sim/nc/sinumerik_block.h"
 
 namespace ncsim::app {
 namespace {
@@ -25,6 +29,29 @@ double HeaderUnit(const machine::Machine& machine, const machine::Job& job,
   if (code != 0) return code == 21 ? 1.0 : kMmPerInch;
   const std::optional<std::string> setting = control::SettingSource(machine, job).Text("setting 9");
   return setting && *setting != "inch" ? 1.0 : kMmPerInch;
+}
+
+/// T numbers that stand in the blocks of a SINUMERIK program: `T5`, `T=5`.
+std::set<int> SinumerikToolNumbers(const nc::Program& program) {
+  std::set<int> numbers;
+  nc::SinumerikBlock block;
+  int line = 1;
+  for (std::size_t at = program.begin(); at < program.text().size(); ++line) {
+    nc::ParseSinumerikBlock(program, at, line, &block);
+    at = block.next;
+    for (const nc::SinumerikPart& part : block.parts) {
+      if (part.letter != 'T') continue;
+      double value = part.value;
+      if (part.kind == nc::SinumerikPartKind::kAssign) {
+        const auto [first, end] = std::pair(part.expression.begin, part.expression.end);
+        const bool number = end == first + 1 && block.code[first].op == nc::SinumerikOp::kInteger;
+        value = number ? block.code[first].number : 0.0;
+      }
+      const bool whole = value >= 1.0 && value <= kMaxToolNumber && value == std::floor(value);
+      if (whole) numbers.insert(static_cast<int>(value));
+    }
+  }
+  return numbers;
 }
 
 /// T numbers that stand in the blocks.
@@ -60,7 +87,8 @@ machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job
         " (diameter from the program's comment at line " + std::to_string(header.line) + ")";
     tools.emplace(header.number, std::move(tool));
   }
-  for (const int number : ToolNumbers(program)) {
+  const bool sinumerik = machine.control.dialect == control::kSinumerik840d;
+  for (const int number : sinumerik ? SinumerikToolNumbers(program) : ToolNumbers(program)) {
     if (tools.count(number) == 0) {
       tools.emplace(number, machine::AssumeTool(number, "", 0.0, 0.0, 0.0, ""));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <variant>
 
 #include "sim/base/run_finding.h"
 #include "sim/base/text.h"
@@ -23,11 +24,14 @@ class RotaryUnderTcpCheck : public Check {
       const double turn = motion.q1()[axis.joint] - motion.q0()[axis.joint];
       if (std::abs(turn) <= kMoves) continue;
       if (!run_.open()) {
-        run_.Start(FindingAt(*machine_, Rule::kRotaryUnderTcp, motion, 0.0,
-                             std::string("a rapid turns axis ") + axis.letter + " by " +
-                                 Fixed(Degrees(turn), 3) +
-                                 " deg while TCP is active: the tip does not hold its point on "
-                                 "the way"));
+        const bool held = std::holds_alternative<motion::TcpCurve>(motion.path);
+        run_.Start(FindingAt(
+            *machine_, Rule::kRotaryUnderTcp, motion, 0.0,
+            std::string("a rapid turns axis ") + axis.letter + " by " + Fixed(Degrees(turn), 3) +
+                " deg while TCP is active: " +
+                (held ? "the linear axes swing at rapid to lead the tip on its line; turn the "
+                        "axis before TCP is switched on"
+                      : "the tip does not hold its point on the way")));
       }
       run_.Add(motion.where);
       return;

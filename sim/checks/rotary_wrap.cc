@@ -127,7 +127,8 @@ class RotaryWrapCheck : public Check {
     return std::string("axis ") + turning.letter + " turns " +
            Fixed(Degrees(std::abs(to - from)), 3) + " deg in a feed, from " +
            Fixed(Degrees(from), 3) + " to " + Fixed(Degrees(to), 3) + "; the same tool axis at " +
-           end + " is only " + Fixed(Degrees(away), 3) + " deg away";
+           end + " is only " + Fixed(Degrees(away), 3) + " deg away" +
+           std::string(motion.facts.wrap_note);
   }
 
   const machine::Machine* machine_;

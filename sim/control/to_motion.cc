@@ -220,7 +220,7 @@ void ToMotion::Execute(const Command& command) {
 void ToMotion::Rapid(const Command& command, const JointVector& q1) {
   if (IsTcp(command) && options_.track_tcp_rapids) {
     motion::TcpCurve curve;
-    if (!SetCurve(command, q1, &curve)) return;
+    SetCurve(command, q1, &curve);
     motion_.path = std::move(curve);
     motion_.duration = TcpTime(motion_);
   } else {
@@ -332,8 +332,7 @@ void ToMotion::Arc(const Command& command, const JointVector& q1) {
   Send(command, MotionKind::kArc);
 }
 
-// False: the tool axis cannot be led there, and it has been said why.
-bool ToMotion::SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve) {
+void ToMotion::SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve) {
   curve->frame = frames_->Tcp(command.frame);
   curve->q0 = q_;
   curve->q1 = q1;
@@ -341,31 +340,29 @@ bool ToMotion::SetCurve(const Command& command, const JointVector& q1, motion::T
   curve->frame->control.TipInTable(q_, curve->frame->length, &curve->p0_B, &u_B);
   curve->p1_B = frames_->InTable(command.frame).Point(Linear(command.end));
   curve->centre = curve->e1 = curve->e2 = curve->pitch = curve->end_error = Eigen::Vector3d::Zero();
-  return command.orientation == Orientation::kAxes || LeadToolAxis(command, curve);
+  if (command.orientation == Orientation::kVector) LeadToolAxis(command, curve);
 }
 
-bool ToMotion::LeadToolAxis(const Command& command, motion::TcpCurve* curve) {
+void ToMotion::LeadToolAxis(const Command& command, motion::TcpCurve* curve) {
   using kinematics::GreatCircle;
   const std::vector<int>& rotary = curve->frame->control.rotary();
   const bool turns = std::any_of(rotary.begin(), rotary.end(),
                                  [&](int joint) { return curve->q1[joint] != q_[joint]; });
-  if (!turns || rotary.size() < 2) return true;
+  if (!turns || rotary.size() < 2) return;
   auto circle = std::make_shared<GreatCircle>();
   const std::array<double, 2> from = {q_[rotary[0]], q_[rotary[1]]};
   const GreatCircle::Fault fault = GreatCircle::Make(
       curve->frame->control, from, {curve->q1[rotary[0]], curve->q1[rotary[1]]}, circle.get());
-  if (fault == GreatCircle::Fault::kNoTurn) return true;
+  if (fault == GreatCircle::Fault::kNoTurn) return;
   if (fault != GreatCircle::Fault::kNone || circle->start() != from) {
-    log_->Report(Rule::kUnsupportedCode, command.where,
-                 "the tool axis on a great circle through the pole, or to the other solution of "
-                 "the rotary axes, was not simulated; the program was not followed any further");
-    log_->Stop();
-    return false;
+    log_->ReportOnce("great circle", Rule::kUnsupportedCode, command.where,
+                     "the tool axis on a great circle from or through the pole, or to the other "
+                     "solution of the rotary axes, was not simulated: taken as in proportion");
+    return;
   }
   for (std::size_t i = 0; i < 2; ++i) curve->q1[rotary[i]] = circle->end()[i];
   curve->frame->control.SolveLinear(curve->p1_B, curve->frame->length, &curve->q1);
   curve->great_circle = std::move(circle);
-  return true;
 }
 
 // The time that the slowest axis needs.
@@ -380,7 +377,7 @@ double ToMotion::TcpTime(const motion::Motion& motion) const {
 
 void ToMotion::TcpFeed(const Command& command, const JointVector& q1) {
   motion::TcpCurve curve;
-  if (!SetCurve(command, q1, &curve)) return;
+  SetCurve(command, q1, &curve);
   const double length = (curve.p1_B - curve.p0_B).norm();
   const bool turns_only = options_.rotary_follows && length < kRests;
   if (!FeedTime(command, length, turns_only ? RotaryLength(curve.q1) : 0.0)) return;
@@ -391,7 +388,7 @@ void ToMotion::TcpFeed(const Command& command, const JointVector& q1) {
 
 void ToMotion::TcpArc(const Command& command, const JointVector& q1) {
   motion::TcpCurve curve;
-  if (!SetCurve(command, q1, &curve)) return;
+  SetCurve(command, q1, &curve);
   const ProgramInTable& in_table = frames_->InTable(command.frame);
   const bool mirrored = in_table.linear.determinant() < 0.0;
   const Circle circle = CircleThrough(curve.p0_B, curve.p1_B, in_table.Point(command.centre),

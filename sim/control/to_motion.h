@@ -50,8 +50,8 @@ class ToMotion {
   void TcpFeed(const Command& command, const JointVector& q1);
   void Arc(const Command& command, const JointVector& q1);
   void TcpArc(const Command& command, const JointVector& q1);
-  bool SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve);
-  bool LeadToolAxis(const Command& command, motion::TcpCurve* curve);
+  void SetCurve(const Command& command, const JointVector& q1, motion::TcpCurve* curve);
+  void LeadToolAxis(const Command& command, motion::TcpCurve* curve);
   double TcpTime(const motion::Motion& motion) const;
   double RotaryLength(const JointVector& q1) const;
   bool FeedTime(const Command& command, double length, double rotary);
