@@ -65,7 +65,7 @@ PairOutcome PairCheck::Run() {
     ++at_;
   }
   CloseRuns();
-  if (feeds_unknown()) {
+  if (cutting()) {
     const bool inside = DepthAt((*travel_)[travel_->size() - 1], 1.0) > 0.0;
     carry_->feeds = inside ? DepthOfFeeds() : 0.0;
   }
@@ -147,9 +147,14 @@ void PairCheck::Passed(std::size_t end) {
     if (IsRapid(motion())) {
       carry_->reference.OnRapid(motion().facts.cycle, 0.0);
     } else {
-      carry_->reference.OnFeed(0.0);
+      AfterFeed(0.0);
     }
   }
+}
+
+void PairCheck::AfterFeed(double depth) {
+  carry_->reference.OnFeed(depth);
+  feeds_end_ = at_ + 1;
 }
 
 void PairCheck::OnMotion() {
@@ -158,10 +163,7 @@ void PairCheck::OnMotion() {
   if (!judgement.checked || carry_->warned) {
     CloseRuns();
     sweep_.Forget();
-    if (feeds_unknown()) {
-      carry_->reference.OnFeed(0.0);
-      feeds_end_ = at_ + 1;
-    }
+    if (feeds_unknown()) AfterFeed(0.0);
     return;
   }
   judgement.watch.run_least = near_.open ? near_.run.least : kInfinity;
@@ -182,7 +184,7 @@ void PairCheck::OnMotion() {
   }
   if (!IsRapid(motion())) {
     const double seen = contact_.open ? contact_.run.least : result.least.upper;
-    carry_->reference.OnFeed(std::max(0.0, -seen));
+    AfterFeed(std::max(0.0, -seen));
   }
 }
 
@@ -191,9 +193,12 @@ bool PairCheck::feeds_unknown() const {
   return pair().role == PairRole::kFlutesPart && setup_->settings.gouge == machine::GougeMode::kOff;
 }
 
+// What is known of the feeds' depth is what the sweeps came upon: enough for most rapids, but no
+// ground to fail one.
 SweepResult PairCheck::Sweep(Judgement* judgement) {
   const SweepResult result = sweep_.Check(motion(), judgement->watch);
-  if (!result.contact || !feeds_unknown() || !carry_->reference.inside()) return result;
+  const bool retreats = cutting() && IsRapid(motion()) && carry_->reference.inside();
+  if (!result.contact || !retreats) return result;
   const double depth = DepthOfFeeds();
   const Watch asked = judgement->watch;
   judgement->watch =
@@ -259,7 +264,9 @@ void PairCheck::OnContact(const Judgement& judgement, const SweepResult& result)
     OnFirstCut(result);
     return;
   }
-  if (blank_ != nullptr && !Uncut(*blank_, number(), result.first.s)) {
+  // Flutes and a shank as wide come upon the blank at one place, which is known to 0.001 each.
+  const double slack = pair().role == PairRole::kThinShankBlank ? 1e-3 : 0.0;
+  if (blank_ != nullptr && !Uncut(*blank_, number(), result.first.s + slack)) {
     if (pair().role == PairRole::kThinShankBlank) {
       Close(&contact_);
       return;

@@ -79,6 +79,7 @@ class PairCheck {
   std::size_t CrossSwept(const Watch& watch);
   bool ClearWhenSwept(const Watch& watch);
   void Passed(std::size_t end);
+  void AfterFeed(double depth);
   void OnSpindleStopped();
   double AllowedDepth();
   bool feeds_unknown() const;

@@ -160,7 +160,8 @@ class PairSweep {
   void Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep);
   void See(double clearance, const SourcePosition& where, bool track);
   std::optional<double> ClearAlongAxis(const motion::Translation& translation, double need);
-  SweepResult Pass(const motion::Motion& motion, const Watch& watch, double clearance);
+  SweepResult Pass(double clearance, Sweep* sweep);
+  void Arrive(double clearance, const Sweep& sweep);
   void Cover(const motion::Span& whole, Sweep* sweep);
   std::optional<Interval> Query(const motion::Span& span, double bound, Sweep* sweep);
   bool Accept(const motion::Span& span, const motion::Span& whole, const Interval& clearance,
