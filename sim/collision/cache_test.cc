@@ -10,6 +10,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <thread>
 
 #include "sim/collision/batch.h"
@@ -24,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using machine::BodyKind;
+using ::testing::ElementsAre;
 using ::testing::SizeIs;
 
 class CacheTest : public ::testing::Test {
@@ -275,6 +277,85 @@ TEST_F(CacheTest, WhatDoesNotFitIsNotUsed) {
     EXPECT_EQ(Everything(Run(changed, 16)), fresh) << change.name;
   }
   EXPECT_EQ(Everything(Run(rig, 16)), before);
+}
+
+// Windows that are the same each time, to which something else passes on: how deep the feeds were,
+// and of which cycle the motions are.
+TEST_F(CacheTest, WhatPassesOnIsLookedAt) {
+  std::set<std::string> told;
+  for (const std::size_t window : {2, 4096}) {
+    for (const machine::GougeMode gouge : {machine::GougeMode::kError, machine::GougeMode::kOff}) {
+      for (const double depth : {1.0, 3.0}) {
+        for (const auto& [out, in] : {std::pair{5, 5}, {5, 6}, {5, 0}, {0, 0}, {0, 5}, {7, 7}}) {
+          Rig rig;
+          rig.check().gouge = gouge;
+          rig.AddBox("part", BodyKind::kPart, {-60, -30, -50}, {0, 30, 0});
+          rig.Start(-30, 0, 20);
+          rig.facts().cycle = out;
+          rig.Feed(-30, 0, -depth);
+          rig.Feed(-30, 0, -1);
+          rig.Rapid(-30, 0, -2.5);  // no deeper than the feeds
+          rig.Rapid(-30, 0, 5);
+          rig.Rapid(-20, 0, 5);
+          rig.Rapid(-20, 0, 6);
+          rig.facts().cycle = in;
+          rig.Rapid(-20, 0, -2.5);  // in the same cycle it may come back
+          rig.Rapid(-30, 0, 50);
+          const std::string fresh = Everything(rig.Run(window));
+          for (int i = 0; i < 2; ++i) {
+            EXPECT_EQ(Everything(Run(rig, window)), fresh)
+                << window << ": " << depth << " deep, cycles " << out << ' ' << in;
+          }
+          told.insert(fresh);
+        }
+      }
+    }
+  }
+  EXPECT_GE(told.size(), 8u);
+}
+
+// On a machine of which no five axes are known, whose joints else stand for themselves.
+TEST_F(CacheTest, EveryJointIsLookedAt) {
+  Rig rig = Operations(3);
+  rig.machine().five_axis.reset();
+  Run(rig, 4096);
+  for (std::size_t i = 0; i < rig.machine().tree.joints().size(); ++i) {
+    for (const bool turned : {false, true}) {
+      Rig changed = rig;
+      std::vector<kinematics::Joint> joints = rig.machine().tree.joints();
+      joints[i].X_PJ.translation() += Eigen::Vector3d(0.3, 0.2, 0.1);
+      if (turned)
+        joints[i].axis = (joints[i].axis + Eigen::Vector3d(0.03, 0.02, 0.01)).normalized();
+      changed.machine().tree = kinematics::KinematicTree(rig.machine().tree.links(), joints);
+      EXPECT_EQ(Everything(Run(changed, 4096)), Everything(changed.Run())) << i;
+      EXPECT_NE(Everything(changed.Run()), Everything(rig.Run())) << i;
+      Run(rig, 4096);
+    }
+  }
+}
+
+// Wider flutes cut the blank earlier, and what the holder does to it is another fault, though
+// neither holder nor motions have changed.
+TEST_F(CacheTest, WhereTheBlankWasCutIsLookedAt) {
+  std::vector<Severity> severities;
+  for (const double radius : {5.0, 8.0, 5.0}) {
+    Rig rig;
+    rig.tools().tools[0].flutes = CylinderProfile(0, 30, radius);
+    rig.AddBox("blank", BodyKind::kStock, {-62, -32, -50}, {2, 32, 3});
+    rig.Start(-30, 45, 20);
+    rig.Feed(-30, 45, -10);
+    rig.Feed(-30, 38, -10);  // the wider ones touch
+    rig.Feed(-30, 45, -10);
+    rig.Rapid(-30, 45, -100);  // the holder goes 7 mm into it
+    rig.Rapid(-30, 45, -10);
+    rig.Feed(-30, 30, -10);
+    const CollisionResult warm = Run(rig, 4096);
+    EXPECT_EQ(Everything(warm), Everything(rig.Run()));
+    for (const Finding& finding : warm.findings) {
+      if (finding.bodies.front() == "T3.holder") severities.push_back(finding.severity);
+    }
+  }
+  EXPECT_THAT(severities, ElementsAre(Severity::kError, Severity::kWarning, Severity::kError));
 }
 
 // A pair that a change does not concern is not computed again.
