@@ -283,7 +283,7 @@ TEST_F(CacheTest, WhatDoesNotFitIsNotUsed) {
 // and of which cycle the motions are.
 TEST_F(CacheTest, WhatPassesOnIsLookedAt) {
   std::set<std::string> told;
-  for (const std::size_t window : {2, 4096}) {
+  for (const std::size_t window : {2, 3, 4096}) {
     for (const machine::GougeMode gouge : {machine::GougeMode::kError, machine::GougeMode::kOff}) {
       for (const double depth : {1.0, 3.0}) {
         for (const auto& [out, in] : {std::pair{5, 5}, {5, 6}, {5, 0}, {0, 0}, {0, 5}, {7, 7}}) {
