@@ -283,14 +283,17 @@ TEST_F(CacheTest, WhatDoesNotFitIsNotUsed) {
 // and of which cycle the motions are.
 TEST_F(CacheTest, WhatPassesOnIsLookedAt) {
   std::set<std::string> told;
-  for (const std::size_t window : {2, 3, 4096}) {
+  for (const std::size_t window : {1, 2, 3, 4096}) {
     for (const machine::GougeMode gouge : {machine::GougeMode::kError, machine::GougeMode::kOff}) {
       for (const double depth : {1.0, 3.0}) {
         for (const auto& [out, in] : {std::pair{5, 5}, {5, 6}, {5, 0}, {0, 0}, {0, 5}, {7, 7}}) {
           Rig rig;
           rig.check().gouge = gouge;
           rig.AddBox("part", BodyKind::kPart, {-60, -30, -50}, {0, 30, 0});
-          rig.Start(-30, 0, 20);
+          rig.Start(-40, 0, 20);
+          rig.Feed(-40, 0, -3);  // the deepest cut of all
+          rig.Rapid(-40, 0, 20);
+          rig.Rapid(-30, 0, 20);
           rig.facts().cycle = out;
           rig.Feed(-30, 0, -depth);
           rig.Feed(-30, 0, -1);
