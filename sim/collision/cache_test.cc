@@ -117,6 +117,90 @@ void MoveEnd(Rig* rig, std::size_t i, double dx) {
   std::get<motion::AxisLinear>(rig->motions()[i + 1].path).q0 = End(&rig->motions()[i]);
 }
 
+void ChangeJoint(Rig* r, std::size_t i, const std::function<void(kinematics::Joint*)>& f) {
+  std::vector<kinematics::Joint> joints = r->machine().tree.joints();
+  f(&joints[i]);
+  r->machine().tree = kinematics::KinematicTree(r->machine().tree.links(), joints);
+  r->machine().five_axis = kinematics::FiveAxis::Make(r->machine().tree, r->machine().spindle_link,
+                                                      r->machine().table_link);
+}
+
+struct Change {
+  const char* name;
+  std::function<void(Rig*)> make;
+  bool told = true;  // the report differs
+};
+
+std::vector<Change> OtherShapes() {
+  return {
+      {"a fixture moved",
+       [](Rig* r) {
+         r->scene().bodies[0].mesh = BoxMesh({60.1, -20, -50}, {90, 20, 60});
+       }},
+      {"a fixture of another kind", [](Rig* r) { r->scene().bodies[0].kind = BodyKind::kPart; }},
+      {"a fixture of another name", [](Rig* r) { r->scene().bodies[0].name = "stop"; }},
+      {"a fixture on another link", [](Rig* r) { r->scene().bodies[0].link = 0; }},
+      {"a fixture that is not closed",
+       [](Rig* r) { r->scene().bodies[0].mesh.watertight = false; }},
+      {"the part lower",
+       [](Rig* r) {
+         r->scene().bodies[1].mesh = BoxMesh({-60, -30, -50}, {0, 30, -0.1});
+       }},
+      {"the blank higher",
+       [](Rig* r) {
+         r->scene().bodies[2].mesh = BoxMesh({-62, -32, -50}, {2, 32, 6});
+       }},
+      {"a link's shape",
+       [](Rig* r) {
+         r->scene().bodies[3].mesh = BoxMesh({-50, -50, -90}, {50, 50, 200});
+       }},
+      {"a wider holder", [](Rig* r) { r->tools().tools[0].holder = CylinderProfile(90, 150, 22); }},
+      {"a longer tool", [](Rig* r) { r->tools().tools[0].length += 1.0; }},
+      {"wider flutes", [](Rig* r) { r->tools().tools[1].flutes = CylinderProfile(0, 30, 9); }}};
+}
+
+std::vector<Change> OtherSettingsAndMotions() {
+  return {
+      {"clearance", [](Rig* r) { r->check().clearance = 120.0; }},
+      {"a margin",
+       [](Rig* r) {
+         machine::PairMargin margin;
+         margin.bodies[0].name = "T3.holder";
+         margin.bodies[1].name = "post";
+         margin.clearance = 90.0;
+         r->check().margins.push_back(margin);
+       }},
+      {"tolerance in rapids", [](Rig* r) { r->check().part_tolerance = 0.01; }, false},
+      {"tolerance in feeds", [](Rig* r) { r->check().gouge_tolerance = 0.32; }},
+      {"gouge off", [](Rig* r) { r->check().gouge = machine::GougeMode::kOff; }},
+      {"gouge a warning", [](Rig* r) { r->check().gouge = machine::GougeMode::kWarning; }},
+      {"exact below", [](Rig* r) { r->check().exact_below = 200.0; }},
+      {"a joint elsewhere",
+       [](Rig* r) { ChangeJoint(r, 0, [](auto* j) { j->X_PJ.translation().x() += 1.0; }); }},
+      {"a joint turned",
+       [](Rig* r) {
+         ChangeJoint(r, 2, [](auto* j) { j->axis = Eigen::Vector3d(0.0, 0.01, 1.0).normalized(); });
+       }},
+      {"the spindle stopped",
+       [](Rig* r) {
+         for (auto& m : r->motions()) m.facts.spindle_on = false;
+       }},
+      {"corners rounded",
+       [](Rig* r) {
+         for (auto& m : r->motions()) m.facts.corner_rounding = 40.0;
+       }},
+      {"rapids for feeds",
+       [](Rig* r) {
+         for (auto& m : r->motions()) m.kind = motion::MotionKind::kRapid;
+       }},
+      {"no cycles",
+       [](Rig* r) {
+         for (auto& m : r->motions()) m.facts.cycle = 0;
+       },
+       false},
+  };
+}
+
 }  // namespace
 
 TEST_F(CacheTest, ColdAndWarmAndWithoutSayTheSame) {
@@ -191,81 +275,8 @@ TEST_F(CacheTest, WhatDoesNotFitIsNotUsed) {
   const Rig rig = Operations(12);
   const CollisionResult whole = Run(rig, 16);
   const std::string before = Everything(whole);
-  struct Change {
-    const char* name;
-    std::function<void(Rig*)> make;
-    bool told = true;  // the report differs
-  };
-  const auto joint = [](Rig* r, std::size_t i, const std::function<void(kinematics::Joint*)>& f) {
-    std::vector<kinematics::Joint> joints = r->machine().tree.joints();
-    f(&joints[i]);
-    r->machine().tree = kinematics::KinematicTree(r->machine().tree.links(), joints);
-    r->machine().five_axis = kinematics::FiveAxis::Make(
-        r->machine().tree, r->machine().spindle_link, r->machine().table_link);
-  };
-  const std::vector<Change> changes{
-      {"a fixture moved",
-       [](Rig* r) {
-         r->scene().bodies[0].mesh = BoxMesh({60.1, -20, -50}, {90, 20, 60});
-       }},
-      {"a fixture of another kind", [](Rig* r) { r->scene().bodies[0].kind = BodyKind::kPart; }},
-      {"a fixture of another name", [](Rig* r) { r->scene().bodies[0].name = "stop"; }},
-      {"a fixture on another link", [](Rig* r) { r->scene().bodies[0].link = 0; }},
-      {"a fixture that is not closed",
-       [](Rig* r) { r->scene().bodies[0].mesh.watertight = false; }},
-      {"the part lower",
-       [](Rig* r) {
-         r->scene().bodies[1].mesh = BoxMesh({-60, -30, -50}, {0, 30, -0.1});
-       }},
-      {"the blank higher",
-       [](Rig* r) {
-         r->scene().bodies[2].mesh = BoxMesh({-62, -32, -50}, {2, 32, 6});
-       }},
-      {"a link's shape",
-       [](Rig* r) {
-         r->scene().bodies[3].mesh = BoxMesh({-50, -50, -90}, {50, 50, 200});
-       }},
-      {"a wider holder", [](Rig* r) { r->tools().tools[0].holder = CylinderProfile(90, 150, 22); }},
-      {"a longer tool", [](Rig* r) { r->tools().tools[0].length += 1.0; }},
-      {"wider flutes", [](Rig* r) { r->tools().tools[1].flutes = CylinderProfile(0, 30, 9); }},
-      {"clearance", [](Rig* r) { r->check().clearance = 120.0; }},
-      {"a margin",
-       [](Rig* r) {
-         machine::PairMargin margin;
-         margin.bodies[0].name = "T3.holder";
-         margin.bodies[1].name = "post";
-         margin.clearance = 90.0;
-         r->check().margins.push_back(margin);
-       }},
-      {"tolerance in rapids", [](Rig* r) { r->check().part_tolerance = 0.01; }, false},
-      {"tolerance in feeds", [](Rig* r) { r->check().gouge_tolerance = 0.32; }},
-      {"gouge off", [](Rig* r) { r->check().gouge = machine::GougeMode::kOff; }},
-      {"gouge a warning", [](Rig* r) { r->check().gouge = machine::GougeMode::kWarning; }},
-      {"exact below", [](Rig* r) { r->check().exact_below = 200.0; }},
-      {"a joint elsewhere",
-       [&](Rig* r) { joint(r, 0, [](auto* j) { j->X_PJ.translation().x() += 1.0; }); }},
-      {"a joint turned",
-       [&](Rig* r) {
-         joint(r, 2, [](auto* j) { j->axis = Eigen::Vector3d(0.0, 0.01, 1.0).normalized(); });
-       }},
-      {"the spindle stopped",
-       [](Rig* r) {
-         for (auto& m : r->motions()) m.facts.spindle_on = false;
-       }},
-      {"corners rounded",
-       [](Rig* r) {
-         for (auto& m : r->motions()) m.facts.corner_rounding = 40.0;
-       }},
-      {"rapids for feeds",
-       [](Rig* r) {
-         for (auto& m : r->motions()) m.kind = motion::MotionKind::kRapid;
-       }},
-      {"no cycles",
-       [](Rig* r) {
-         for (auto& m : r->motions()) m.facts.cycle = 0;
-       },
-       false},
-  };
+  std::vector<Change> changes = OtherShapes();
+  for (const Change& change : OtherSettingsAndMotions()) changes.push_back(change);
   for (const Change& change : changes) {
     Rig changed = rig;
     change.make(&changed);
