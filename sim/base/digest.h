@@ -23,8 +23,8 @@ Digest DigestOf(std::string_view bytes);
 /// 32 hexadecimal digits.
 std::string ToString(const Digest& digest);
 
-/// Of the program that runs and of every library that it has loaded when this is asked for the first
-/// time, their files byte by byte. nullopt where one of them cannot be read.
+/// Of the program that runs and of every library that it has loaded when this is asked for the
+/// first time, their files byte by byte. nullopt where one of them cannot be read.
 std::optional<Digest> DigestOfThisProgram();
 
 }  // namespace ncsim
