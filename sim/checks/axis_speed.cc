@@ -8,16 +8,15 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
+#include "sim/motion/top_speed.h"
 
 namespace ncsim::checks {
 namespace {
 
 /// Relative: rounding of a feed that was programmed to be just the axis' rate.
 constexpr double kRounding = 1e-6;
-/// mm: a tip that moves less rests.
+/// mm, rad: what moves less rests.
 constexpr double kRests = 1e-9;
-/// The speed of a linear axis changes along a TCP path; it is measured on this many pieces.
-constexpr int kPieces = 8;
 
 double TipPathLength(const motion::TcpCurve& curve) {
   if (!curve.arc) return (curve.p1_B - curve.p0_B).norm();
@@ -61,30 +60,17 @@ class AxisSpeedCheck : public Check {
     if (!(motion.facts.feed > 0.0)) return worst;  // Feed-missing is the control's to report.
     const double time = length > kRests ? length / motion.facts.feed : 0.0;
     double slowest = 0.0;  // s
+    const motion::JointVector travel = motion::TravelAtTopSpeed(motion);
     for (const machine::Axis& axis : machine_->axes) {
       if (!(axis.rapid > 0.0)) continue;
-      const double needed = Travel(motion, axis) / axis.rapid;
-      if (!(needed > slowest)) continue;
+      const double way = travel[axis.joint];
+      const double needed = way / axis.rapid;
+      if (!(way > kRests) || !(needed > slowest)) continue;
       slowest = needed;
       worst.axis = &axis;
       worst.ratio = time > 0.0 ? needed / time : std::numeric_limits<double>::infinity();
     }
     return worst;
-  }
-
-  /// How far the axis would go in the motion's time if it kept its highest speed: rotary axes keep
-  /// one speed.
-  double Travel(const motion::Motion& motion, const machine::Axis& axis) const {
-    if (axis.rotary) return std::abs(motion.q1()[axis.joint] - motion.q0()[axis.joint]);
-    if (!machine_->five_axis) return 0.0;
-    double most = 0.0;
-    double before = motion.q0()[axis.joint];
-    for (int i = 1; i <= kPieces; ++i) {
-      const double here = motion.At(static_cast<double>(i) / kPieces)[axis.joint];
-      most = std::max(most, std::abs(here - before));
-      before = here;
-    }
-    return most > kRests ? most * kPieces : 0.0;
   }
 
   static std::string Message(const motion::Motion& motion, const machine::Axis& axis, double length,

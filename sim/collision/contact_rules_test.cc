@@ -59,6 +59,21 @@ TEST(RapidContactTest, RapidFromTheEndOfAFeed) {
   }
 }
 
+// How deep a plunge went is known though its whole way is within what a feed may.
+TEST(RapidContactTest, BackToWhereThePlungeWas) {
+  for (double to : {-0.27, -0.33}) {
+    Rig rig = PartRig();
+    for (int i = 0; i < 2; ++i) {
+      rig.Rapid(0, 0, 10);
+      rig.Feed(0, 0, -0.2);
+    }
+    rig.Feed(0, 0, -0.02);
+    rig.Rapid(0, 0, to);
+    const CollisionResult result = rig.Run();
+    EXPECT_THAT(result.findings, SizeIs(to > -0.3 ? 0 : 1)) << Words(result);
+  }
+}
+
 // Once out, the depth of the feed is no excuse.
 TEST(RapidContactTest, ReferenceEndsWhenTheToolLeavesThePart) {
   Rig rig = PartRig();

@@ -2,6 +2,8 @@
 #include "sim/collision/engine.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <utility>
 
 #include "sim/collision/mesh_distance.h"
@@ -12,6 +14,9 @@ namespace {
 
 using Eigen::Isometry3d;
 
+constexpr std::size_t kMostSwept = 64;
+constexpr double kAlongBudget = 1.0;  // mm beyond what is needed of a whole way
+
 class ToolEngine final : public PairEngine {
  public:
   ToolEngine(std::shared_ptr<const ToolBody> a, std::shared_ptr<const MeshBody> b)
@@ -19,6 +24,19 @@ class ToolEngine final : public PairEngine {
 
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     return kernel_.Surface(ToolPose(X_BA, a_->length), goal);
+  }
+  // Where the solid was when it stood nearest to its tip, it is swept from; and by whole
+  // millimetres, since a program comes back to the same ways.
+  std::optional<double> ClearanceAlong(const Isometry3d& X_BA, double along, double need) override {
+    if (need < 0.0 && !a_->shape.convex()) return std::nullopt;
+    RevolvedPose pose = ToolPose(X_BA, a_->length);
+    pose.tip -= std::max(0.0, along) * pose.axis;
+    DistanceGoal goal;
+    goal.floor = need;
+    goal.relative_gap = 0.2;
+    goal.stop_above = need + kAlongBudget;
+    goal.stop_below = need;
+    return Swept(std::ceil(std::abs(along))).kernel.Surface(pose, goal).lower;
   }
   bool Contained(const Isometry3d& X_BA) override {
     return kernel_.Contained(ToolPose(X_BA, a_->length));
@@ -44,9 +62,22 @@ class ToolEngine final : public PairEngine {
   double floor() const override { return -a_->shape.inradius(); }
 
  private:
+  /// What the tool sweeps on its way along its axis.
+  struct AlongAxis {
+    AlongAxis(const ProfileShape& body, double length, const TriangleTree& tree)
+        : shape(body.Swept(length)), kernel(shape, tree) {}
+    ProfileShape shape;
+    ProfileDistance kernel;
+  };
+  AlongAxis& Swept(double length) {
+    if (swept_.size() >= kMostSwept) swept_.clear();
+    return swept_.try_emplace(length, a_->shape, length, b_->tree).first->second;
+  }
+
   std::shared_ptr<const ToolBody> a_;
   std::shared_ptr<const MeshBody> b_;
   ProfileDistance kernel_;
+  std::map<double, AlongAxis> swept_;  // by length, mm
 };
 
 class SweptEngine final : public PairEngine {
@@ -56,6 +87,10 @@ class SweptEngine final : public PairEngine {
 
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     return kernel_.Surface(Pose(X_BA), goal);
+  }
+  std::optional<double> ClearanceAlong(const Isometry3d& /*X_BA*/, double /*along*/,
+                                       double /*need*/) override {
+    return std::nullopt;
   }
   bool Contained(const Isometry3d& X_BA) override { return kernel_.Contained(Pose(X_BA)); }
   std::optional<Interval> Solid(const Isometry3d& X_BA, const DistanceGoal& goal) override {
@@ -95,6 +130,10 @@ class MeshEngine final : public PairEngine {
     result.lower = *distance - kFclDistanceError;
     result.upper = std::min(result.upper, *distance);
     return result;
+  }
+  std::optional<double> ClearanceAlong(const Isometry3d& /*X_BA*/, double /*along*/,
+                                       double /*need*/) override {
+    return std::nullopt;
   }
   bool Contained(const Isometry3d& X_BA) override {
     if (kernel_.BoxesApart(X_BA)) return false;

@@ -48,7 +48,7 @@ double ProfileDistance::Distance(const Vector3d& p) const {
   for (const ConvexProfile& part : shape_->parts()) {
     least = std::min(least, part.At(local.z, local.r).distance);
   }
-  if (least > kInterface || shape_->convex()) return least;
+  if (least > kInterface || shape_->convex() || shape_->swept()) return least;
   return shape_->exact().Distance(local.z, local.r);
 }
 
@@ -217,7 +217,7 @@ void ProfileDistance::PushPiece(const Triangle& piece, double at_least) {
   const double distance = Distance(centre);
   See(centre, distance);
   double lower = std::max(at_least, distance - radius);
-  if (distance < 0.0) {
+  if (distance < 0.0 && !shape_->swept()) {
     const Vector3d nearest = NearestOnSurface(centre);
     double deepest = 0.0;
     for (const Vector3d& v : piece) deepest = std::max(deepest, (v - nearest).norm());

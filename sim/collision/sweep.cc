@@ -25,6 +25,7 @@ constexpr int kRefinements = 4000;        // queries a motion for the sake of a 
 constexpr int kDepthQueries = 1000;       // a motion
 constexpr int kNearQueries = 60;          // of them near the contact
 constexpr int kDepthEvaluations = 3000;   // a query
+constexpr double kAstray = 0.01;          // mm off the tool's axis that still is a way along it
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
 PathPoint Middle(const Span& span) {
@@ -178,8 +179,8 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
   const int grid = static_cast<int>(std::floor(std::log2(std::max(0.4 * ahead_, 1e-3))));
   bool explored = false;
   for (std::size_t level = std::min(bound.levels(), level_ + 2); level-- > 0;) {
+    if (bound.StretchEnd(at, level) <= path_end) break;  // the path gets further
     const motion::PairTravel::Neighbourhood around = bound.Around(at, level, grid);
-    if (around.end <= path_end) break;  // the path gets further
     const double enough = Spared(watch) + around.radius;
     std::optional<double> clearance = Recall(around);
     if ((!clearance.has_value() || *clearance <= enough) && around.radius < 0.9 * ahead_ &&
@@ -251,13 +252,19 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
     known_.q = motion.q1();
     return sweep.result;
   }
-  const double bound = motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
-  if (known_.outside && known_.clearance - bound > Need(sweep)) {
-    known_.clearance -= bound;
-    known_.q = motion.q1();
-    if (watch.track) least_.lower = std::min(least_.lower, known_.clearance);
-    sweep.result.least.lower = known_.clearance;
-    return sweep.result;
+  if (known_.outside) {
+    const double need = Need(sweep);
+    const auto translation = motion::TranslationOf(motion, *path_);
+    const double bound = translation.has_value()
+                             ? translation->way.norm() + translation->astray
+                             : motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
+    if (known_.clearance - bound > need) return Pass(motion, watch, known_.clearance - bound);
+    if (translation.has_value() && path_->revolved) {
+      // How deep a feed goes is looked at.
+      const double enough = motion::IsRapid(motion) ? need : std::max(need, 0.0);
+      const std::optional<double> along = ClearAlongAxis(*translation, enough);
+      if (along.has_value()) return Pass(motion, watch, *along);
+    }
   }
   Cover(whole, &sweep);
   const SweepResult& result = sweep.result;
@@ -273,6 +280,31 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
   known_.clearance = sweep.end;
   known_.q = motion.q1();
   return result;
+}
+
+// A motion that is clear by `clearance` all the way.
+SweepResult PairSweep::Pass(const Motion& motion, const Watch& watch, double clearance) {
+  known_.clearance = clearance;
+  known_.q = motion.q1();
+  if (watch.track) least_.lower = std::min(least_.lower, clearance);
+  SweepResult result;
+  result.least = {clearance, kInfinity};
+  return result;
+}
+
+// The least clearance of a motion along the tool's own axis, in one look, if it is what is needed:
+// retracts, approaches and drilling are such.
+std::optional<double> PairSweep::ClearAlongAxis(const motion::Translation& translation,
+                                                double need) {
+  const Eigen::Vector3d axis = translation.X_BA.linear().col(2);
+  const double along = translation.way.dot(axis);
+  const double astray = translation.astray + (translation.way - along * axis).norm();
+  if (astray > kAstray) return std::nullopt;
+  ++queries_;
+  const std::optional<double> clearance =
+      engine_->ClearanceAlong(translation.X_BA, along, need + astray);
+  if (!clearance.has_value() || *clearance - astray <= need) return std::nullopt;
+  return *clearance - astray;
 }
 
 // Where nothing is known of the start: is one body inside the other, or in contact? From a start

@@ -9,6 +9,7 @@
 #include "sim/collision/engine.h"
 #include "sim/collision/patience.h"
 #include "sim/motion/motion.h"
+#include "sim/motion/translation.h"
 #include "sim/motion/travel.h"
 
 namespace ncsim::collision {
@@ -159,6 +160,8 @@ class PairSweep {
   bool Start(Sweep* sweep);
   void Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep);
   void See(double clearance, const motion::Motion& motion, bool track);
+  std::optional<double> ClearAlongAxis(const motion::Translation& translation, double need);
+  SweepResult Pass(const motion::Motion& motion, const Watch& watch, double clearance);
   void Cover(const motion::Span& whole, Sweep* sweep);
   std::optional<Interval> Query(const motion::Span& span, double bound, Sweep* sweep);
   bool Accept(const motion::Span& span, const motion::Span& whole, const Interval& clearance,

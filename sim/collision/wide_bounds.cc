@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/collision/wide_bounds.h"
 
+#if defined(__x86_64__)
+#include <sys/platform/x86.h>
+#endif
+
 #include "sim/collision/wide_bounds_lanes.h"
 
 namespace ncsim::collision {
@@ -9,7 +13,8 @@ const WideBounds kWideBaseline = {WideKernel<4>::Boxes, WideKernel<4>::Triangles
 
 bool HasAvx2() {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") != 0;
+  // As the C library sees it, so that GLIBC_TUNABLES shows what another processor would do.
+  return CPU_FEATURE_ACTIVE(AVX2);
 #else
   return false;
 #endif

@@ -11,6 +11,7 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/control/arc.h"
+#include "sim/motion/top_speed.h"
 
 namespace ncsim::control {
 namespace {
@@ -313,28 +314,12 @@ void ToMotion::SetCurve(const Command& command, const JointVector& q1, motion::T
   curve->centre = curve->e1 = curve->e2 = curve->pitch = curve->end_error = Eigen::Vector3d::Zero();
 }
 
-// The time that the slowest axis needs: linear axes do not keep their speed under TCP, so they are
-// measured on pieces of at most 5 degrees of turn.
+// The time that the slowest axis needs.
 double ToMotion::TcpTime(const motion::Motion& motion) const {
-  const auto& curve = std::get<motion::TcpCurve>(motion.path);
-  const AxisMap& axes = frames_->axes();
-  double turn = 0.0;
-  for (int axis = kA; axis < kNumAxes; ++axis) {
-    if (!axes.has(axis)) continue;
-    turn = std::max(turn, std::abs(curve.q1[axes.joint(axis)] - curve.q0[axes.joint(axis)]));
-  }
-  if (curve.arc) turn = std::max(turn, std::abs(curve.sweep));
-  const int pieces = std::clamp(static_cast<int>(std::ceil(Degrees(turn) / 5.0)), 1, 16);
-  JointVector most = JointVector::Zero(curve.q0.size());
-  JointVector before = curve.q0;
-  for (int piece = 1; piece <= pieces; ++piece) {
-    const JointVector here = piece == pieces ? curve.q1 : motion.At(1.0 * piece / pieces);
-    most = most.cwiseMax((here - before).cwiseAbs());
-    before = here;
-  }
+  const JointVector most = motion::TravelAtTopSpeed(motion);
   double time = 0.0;
   for (const machine::Axis& axis : machine_->axes) {
-    if (axis.rapid > 0.0) time = std::max(time, most[axis.joint] * pieces / axis.rapid);
+    if (axis.rapid > 0.0) time = std::max(time, most[axis.joint] / axis.rapid);
   }
   return time;
 }

@@ -25,17 +25,6 @@ struct Measures {
   double axis = 0.0;
 };
 
-/// How far the control's idea of a unit vector along the tool turns in the table's frame.
-double AxisChange(const kinematics::FiveAxis& five_axis, const JointVector& q,
-                  const JointVector& change) {
-  const std::array<double, 2> radii = five_axis.RadiiAboutTip(Eigen::Vector3d::UnitZ(), q);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < five_axis.rotary().size(); ++k) {
-    sum += kinematics::Chord(change[five_axis.rotary()[k]]) * radii[k];
-  }
-  return sum;
-}
-
 Measures OfTcp(const TcpCurve& curve) {
   const kinematics::FiveAxis& control = curve.frame->control;
   JointVector q = Interpolate(curve.q0, curve.q1, 0.5);
@@ -97,9 +86,12 @@ Travel::Box Union(const Travel::Box& a, const Travel::Box& b) {
 /// Measures motions of one tool.
 class Meter {
  public:
+  /// Tip and axis in the table's frame; of a unit vector along the tool, how far it is from each
+  /// rotary axis.
   struct ToolPose {
     Eigen::Vector3d tip = Eigen::Vector3d::Zero();
     Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+    std::array<double, 2> radii{};
   };
 
   Meter(const kinematics::KinematicTree& tree, const kinematics::FiveAxis* five_axis, double length)
@@ -111,16 +103,21 @@ class Meter {
 
   ToolPose ToolAt(const JointVector& q) const {
     ToolPose pose;
-    if (five_axis_ != nullptr) five_axis_->TipInTable(q, length_, &pose.tip, &pose.axis);
+    if (five_axis_ == nullptr) return pose;
+    five_axis_->TipInTable(q, length_, &pose.tip, &pose.axis);
+    pose.radii = five_axis_->RadiiAboutTip(Eigen::Vector3d::UnitZ(), q);
     return pose;
   }
 
-  Measures Of(const Motion& motion) const {
+  /// Of a motion between two poses of the tool.
+  Measures Of(const Motion& motion, const ToolPose& from, const ToolPose& to) const {
     const auto* curve = std::get_if<TcpCurve>(&motion.path);
     Measures measures = curve != nullptr ? OfTcp(*curve) : OfJoints(motion, tree_);
     if (five_axis_ == nullptr) return measures;
-    measures.axis = std::max(AxisChange(*five_axis_, motion.q0(), measures.joints),
-                             AxisChange(*five_axis_, motion.q1(), measures.joints));
+    for (std::size_t k = 0; k < five_axis_->rotary().size(); ++k) {
+      measures.axis += kinematics::Chord(measures.joints[five_axis_->rotary()[k]]) *
+                       std::max(from.radii[k], to.radii[k]);
+    }
     if (curve != nullptr) {
       // The control leads its own tip; the metal's is somewhere else on the tool's axis.
       measures.tip += std::abs(curve->frame->length - length_) * measures.axis;
@@ -152,9 +149,9 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
   Meter::ToolPose from = meter.ToolAt(motions_.front()->q0());
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& motion = *motions_[i];
-    const Measures measures = meter.Of(motion);
-    corner_rounding_ = std::max(corner_rounding_, motion.facts.corner_rounding);
     const Meter::ToolPose to = meter.ToolAt(motion.q1());
+    const Measures measures = meter.Of(motion, from, to);
+    corner_rounding_ = std::max(corner_rounding_, motion.facts.corner_rounding);
     Box& box = boxes_[0][i / kLeaf];
     const auto all = [](double change) { return Eigen::Vector3d::Constant(change); };
     Enclose(motion.q0(), motion.q1(), measures.joints, &box.lower, &box.upper);
@@ -223,11 +220,15 @@ double PairTravel::Between(std::size_t i, std::size_t j) const {
   return sum;
 }
 
-PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, int grid) const {
+std::size_t PairTravel::StretchEnd(std::size_t i, std::size_t level) const {
   const std::size_t stretch = Travel::kLeaf << level;
-  const Travel::Box& box = travel_->box(level, i / stretch);
+  return std::min(travel_->size(), (i / stretch + 1) * stretch);
+}
+
+PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, int grid) const {
+  const Travel::Box& box = travel_->box(level, i / (Travel::kLeaf << level));
   Neighbourhood around;
-  around.end = std::min(travel_->size(), (i / stretch + 1) * stretch);
+  around.end = StretchEnd(i, level);
   if (!pair_->tool_to_table || !pair_->revolved) {
     JointVector q = 0.5 * (box.lower + box.upper);
     const kinematics::RelativePath& path = pair_->path;

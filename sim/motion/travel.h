@@ -81,6 +81,8 @@ class PairTravel {
     std::size_t end = 0;
     std::optional<GridKey> key;  ///< For pairs whose poses a program comes back to.
   };
+  /// Behind the stretch of `level` that motion i is in.
+  std::size_t StretchEnd(std::size_t i, std::size_t level) const;
   /// Of the stretch of `level` that motion i is in. `grid`: the spacing of the grid is 2^grid mm.
   Neighbourhood Around(std::size_t i, std::size_t level, int grid) const;
   std::size_t levels() const { return travel_->levels(); }
