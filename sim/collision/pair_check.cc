@@ -70,12 +70,18 @@ PairOutcome PairCheck::Run() {
     carry_->feeds = inside ? DepthOfFeeds() : 0.0;
   }
   outcome_.least = sweep_.least();
-  outcome_.least_where = sweep_.least_where();
   // What was handed in was seen elsewhere.
   if (outcome_.least.upper >= carry_->least) outcome_.least.upper = kInfinity;
   carry_->least = std::min(carry_->least, outcome_.least.upper);
+  if (outcome_.least.upper < kInfinity) outcome_.least_at = IndexOf(sweep_.least_motion());
   outcome_.queries = sweep_.queries() + (swept_ ? swept_->queries() : 0);
   return std::move(outcome_);
+}
+
+std::size_t PairCheck::IndexOf(const motion::Motion* motion) const {
+  std::size_t i = 0;
+  while (i + 1 < travel_->size() && &(*travel_)[i] != motion) ++i;
+  return i;
 }
 
 bool PairCheck::cutting() const {
@@ -117,7 +123,7 @@ std::size_t PairCheck::CrossSwept(const Watch& watch) {
     return at_;
   }
   cross_swept_.Helped();
-  if (watch.track) sweep_.Include({crossing.least, kInfinity}, motion().where);
+  if (watch.track) sweep_.Include({crossing.least, kInfinity}, motion());
   sweep_.Accept((*travel_)[crossing.end - 1], swept_->known_clearance());
   return crossing.end;
 }
@@ -134,7 +140,7 @@ bool PairCheck::ClearWhenSwept(const Watch& watch) {
     return false;
   }
   check_swept_.Helped();
-  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion().where);
+  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion());
   sweep_.Accept(motion(), swept_->known_clearance());
   return true;
 }
@@ -309,7 +315,7 @@ void PairCheck::Deepen(const PathPoint& contact, bool track) {
   const Interval depth =
       sweep_.Deepest(motion(), contact, contact_.with_lag, known, &contact_.depth_budget, &at);
   contact_.run.least = std::min(contact_.run.least, depth.upper);
-  if (track) sweep_.Include({depth.lower, depth.upper}, motion().where);
+  if (track) sweep_.Include({depth.lower, depth.upper}, motion());
   if (first && depth.upper < -kConfirmDepth) Confirm(at);
 }
 

@@ -67,11 +67,11 @@ Eigen::Isometry3d PairSweep::Pose(const Motion& motion, const PathPoint& point) 
   return path_->path.Pose(motion.At(point.s, point.lag));
 }
 
-void PairSweep::Include(const Interval& clearance, const SourcePosition& where) {
+void PairSweep::Include(const Interval& clearance, const Motion& motion) {
   least_.lower = std::min(least_.lower, clearance.lower);
   if (clearance.upper < least_.upper) {
     least_.upper = clearance.upper;
-    least_where_ = where;
+    least_motion_ = &motion;
   }
 }
 
@@ -123,7 +123,7 @@ std::optional<Interval> PairSweep::Look(const Motion& motion, double s, const Wa
   const std::optional<Interval> clearance =
       engine_->Clearance(path_->path.Pose(motion.At(s)), goal);
   if (!clearance.has_value()) return clearance;
-  See(clearance->upper, motion.where, watch.track);
+  See(clearance->upper, motion, watch.track);
   Expect(clearance->lower - Spared(watch));
   return clearance;
 }
@@ -383,13 +383,13 @@ void PairSweep::Observe(const Interval& clearance, const PathPoint& at, Sweep* s
     sweep->result.least.upper = clearance.upper;
     sweep->result.least_at = at;
   }
-  See(clearance.upper, sweep->motion->where, sweep->watch.track);
+  See(clearance.upper, *sweep->motion, sweep->watch.track);
 }
 
-void PairSweep::See(double clearance, const SourcePosition& where, bool track) {
+void PairSweep::See(double clearance, const Motion& motion, bool track) {
   if (!track || clearance >= least_.upper) return;
   least_.upper = clearance;
-  least_where_ = where;
+  least_motion_ = &motion;
 }
 
 bool PairSweep::Accept(const Span& span, const Span& whole, const Interval& clearance, double bound,
