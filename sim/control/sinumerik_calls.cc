@@ -102,9 +102,11 @@ void SinumerikFlow::State::ReportMissing(std::string_view name, int column) {
   const std::string upper = nc::UpperName(name.substr(0, 100));
   std::string text;
   for (const char c : upper) text += c >= ' ' && c < '\x7f' ? c : '?';
+  // Names of a letter and digits (L54) are near to many.
+  const bool slip = text.size() > 3 && !nc::IsDigit(text[1]);
   Unsupported(column, "the subprogram " + text + " was not simulated" +
-                          DidYouMean(text, nc::SinumerikCommandNames()) + ": " + programs.Where() +
-                          "; the control has it or stops with alarm 14011");
+                          (slip ? DidYouMean(text, nc::SinumerikCommandNames()) : "") + ": " +
+                          programs.Where() + "; the control has it or stops with alarm 14011");
 }
 
 /// By its name, with the arguments of the part.
