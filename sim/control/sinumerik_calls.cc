@@ -112,6 +112,7 @@ void SinumerikFlow::State::ReportMissing(std::string_view name, int column) {
 /// By its name, with the arguments of the part.
 bool SinumerikFlow::State::CallSubprogram(const Part& part, std::string_view name) {
   std::vector<Argument> arguments;
+  called = true;
   const SinumerikProgram found = programs.Find(name, *level().text);
   if (found.text == nullptr) {
     ReportMissing(name, part.column);
@@ -144,9 +145,14 @@ void SinumerikFlow::State::SetModalCall(const Part& part) {
   modal.name = nc::UpperName(part.name);
   modal.where = Here(part.column);
   const nc::SinumerikCommand* command = nc::FindSinumerikCommand(part.name);
-  if (command != nullptr && command->kind == nc::SinumerikCommandKind::kCycle) {
+  const bool cycle = command != nullptr && command->kind == nc::SinumerikCommandKind::kCycle;
+  if (cycle && command->support != nc::Support::kUnsupported) {
     modal.command = command;
-  } else if (programs.Find(modal.name, *level().text).text == nullptr) {
+  } else if (programs.Find(modal.name, *level().text).text != nullptr) {
+    return;
+  } else if (cycle) {
+    modal.command = command;
+  } else {
     ReportMissing(modal.name, part.column);
     modal = {};
   }

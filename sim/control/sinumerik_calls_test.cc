@@ -135,6 +135,19 @@ TEST(SinumerikCallsTest, ModalCycle) {
             "X1|<CYCLE81(1,,2)>M8|X2|<CYCLE81(1,,2)>X3|M30|");
 }
 
+TEST(SinumerikCallsTest, ACycleThatIsThereAsText) {
+  // CYCLE92 is not simulated: the user's own text of that name is run.
+  EXPECT_EQ(Trace("CYCLE92(3)\nX9\n", "%_N_CYCLE92_SPF\nPROC CYCLE92(REAL AA)\nX=AA\nRET\n"),
+            "X=3|X9|M30|");
+  EXPECT_EQ(Trace("CYCLE92(3)\nX9\n", ""), "CYCLE92(3)|X9|M30|");
+}
+
+TEST(SinumerikCallsTest, PassesOfWhatIsNotFoundAreNoWord) {
+  EXPECT_EQ(Trace("L99 P3\nX1\n", ""), "X1|M30|");
+  EXPECT_EQ(Trace("POCK P0\nX1\n", "%_N_POCK_SPF\nX2\n"), "X1|M30|");
+  EXPECT_EQ(First("L99 P-1\n", ""), "3:1 unsupported-code");
+}
+
 TEST(SinumerikCallsTest, ModalSubprogram) {
   const std::string sub = "%_N_DRILL_SPF\nPROC DRILL(REAL AA)\nX=AA\nZ1\nRET\n";
   // Its own motion calls nothing.

@@ -162,6 +162,7 @@ struct SinumerikFlow::State final : nc::SinumerikReader {
   std::uint32_t letters_seen = 0;        ///< Addresses of the block, a bit a letter.
   int m_words = 0;
   bool syntax_group_seen = false;
+  bool called = false;  ///< The block calls a subprogram, found or not.
   bool stopped = false;
   bool ended = false;
   std::uint64_t blocks = 0;

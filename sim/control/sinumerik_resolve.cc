@@ -87,10 +87,25 @@ bool SinumerikFlow::State::ReadVariable(const std::shared_ptr<SinumerikVariable>
                                         SinumerikFault* fault) {
   const bool component = variable->type() == nc::SinumerikType::kFrame &&
                          indices.size() == variable->sizes().size() + 2;
+  // One index more than a STRING has: a character of it.
+  const bool character = variable->type() == nc::SinumerikType::kString &&
+                         indices.size() == variable->sizes().size() + 1;
   std::size_t offset = 0;
-  const std::vector<Value> place(indices.begin(), indices.end() - (component ? 2 : 0));
+  const std::vector<Value> place(indices.begin(), indices.end() - (component   ? 2
+                                                                   : character ? 1
+                                                                               : 0));
   std::string error = variable->OffsetOf(place, &offset);
   if (!error.empty()) return Fault(fault, std::move(error));
+  if (character) {
+    const std::string& text = variable->value(offset).text;
+    const double at = indices.back().is_number() ? indices.back().number : -1.0;
+    if (!(at >= 0.0 && at < static_cast<double>(text.size()))) {
+      return Fault(fault, nc::AlarmText(17020, "the string has no character there"));
+    }
+    *value = Value::Default(nc::SinumerikType::kChar);
+    value->number = static_cast<unsigned char>(text[static_cast<std::size_t>(at)]);
+    return true;
+  }
   if (component) {
     error = ReadFrameComponent(variable->value(offset), indices[indices.size() - 2].text,
                                indices.back().text, value);
@@ -254,6 +269,13 @@ bool SinumerikFlow::State::AddName(const Part& part, SinumerikStep* out) {
     case SinumerikCommandKind::kAddress:
       return Alarm(part.column, 12080,
                    "the address " + std::string(command->name) + " has no value");
+    case SinumerikCommandKind::kCycle:
+      // What is not simulated may be there as the user's own text.
+      if (command->support == nc::Support::kUnsupported &&
+          programs.Find(part.name, *level().text).text != nullptr) {
+        return CallSubprogram(part, part.name);
+      }
+      return AddCommandCall(*command, part, out);
     default:
       return AddCommandCall(*command, part, out);
   }

@@ -54,6 +54,12 @@ TEST(SinumerikVariablesTest, Arrays) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(run.Value("R" + std::to_string(i + 1)), expected[i]) << i;
 }
 
+TEST(SinumerikVariablesTest, CharactersOfAString) {
+  EXPECT_EQ(Trace("DEF STRING[5] SS=\"abc\"\nDEF STRING[9] TT\nTT=<<SS[2]<<SS[0]\nT=TT\n"),
+            "T=ca|");
+  EXPECT_EQ(First("DEF STRING[5] SS=\"abc\"\nR1=SS[3]\n"), "2:4 17020");
+}
+
 TEST(SinumerikVariablesTest, RParametersAreKeptByTheControl) {
   SinumerikTestRun run("R1=R102+1 R[R1+1]=R102\nX=R1\n");
   EXPECT_EQ(run.trace, "X=1|");
