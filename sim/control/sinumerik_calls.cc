@@ -62,6 +62,7 @@ void SinumerikFlow::State::Call(Level callee, int column) {
   }
   if (callee.kind == LevelKind::kSubprogram) variables.PushLevel(callee.parameters);
   if (callee.save) events.push_back(SinumerikEvent::kSave);
+  callee.modal = callee.modal || level().modal;
   callee.next = callee.start;
   levels.push_back(std::move(callee));
 }

@@ -87,6 +87,9 @@ TEST(SinumerikCallsTest, CallOfABlock) {
             "X1|X2|X3|X4|M30|");
   EXPECT_EQ(Trace("CALL \"SUB\" BLOCK LA TO LA\n", "%_N_SUB_SPF\nX1\nLA: X2\nX3\n"), "X2|M30|");
   EXPECT_EQ(First("CALL BLOCK LA TO LB\nLA: X1\n", ""), "3:18 14082");
+  EXPECT_EQ(Trace("CALL \"SUB\" BLOCK LA TO LB\nX9\n",
+                  "%_N_SUB_SPF\nLA: R1=R1+1\nX=R1\nIF R1<2 GOTOB LA\nLB: X3\n"),
+            "X=1|X=2|X3|X9|M30|");
 }
 
 TEST(SinumerikCallsTest, NestingIsBounded) {
@@ -152,6 +155,9 @@ TEST(SinumerikCallsTest, ModalSubprogram) {
   const std::string sub = "%_N_DRILL_SPF\nPROC DRILL(REAL AA)\nX=AA\nZ1\nRET\n";
   // Its own motion calls nothing.
   EXPECT_EQ(Trace("MCALL DRILL(7)\nX1\nX2\nMCALL\nX3\n", sub), "X1|X=7|Z1|X2|X=7|Z1|X3|M30|");
+  // Nor does the motion of what it calls.
+  EXPECT_EQ(Trace("MCALL DRILL\nX1\n", "%_N_DRILL_SPF\nDEEP\nRET\n%_N_DEEP_SPF\nX5\nRET\n"),
+            "X1|X5|M30|");
   EXPECT_EQ(First("MCALL NODRILL(7)\nX1\n", ""), "3:1 unsupported-code");
 }
 

@@ -93,9 +93,15 @@ bool SinumerikFlow::State::Case(std::size_t index) {
 
 /// Sections that the target does not lie in end here.
 void SinumerikFlow::State::JumpTo(TextPosition target) {
+  const ProgramText* text = level().text;
   while (level().kind == LevelKind::kSection &&
          (target.offset < level().start.offset || target.offset >= level().end)) {
     levels.pop_back();
+  }
+  if (level().text != text) {
+    Unsupported(pending.column, "a jump out of the section of another program was not simulated");
+    stopped = true;
+    return;
   }
   level().next = target;
 }

@@ -19,18 +19,6 @@ using nc::SinumerikValue;
 constexpr double kMaxWord = 1e9;
 constexpr int kMaxMWords = 5;
 
-/// "R12" or "$R12" -> 12; -1 where it is no R parameter.
-long ParameterNumber(std::string_view name) {
-  if (!name.empty() && name[0] == '$') name.remove_prefix(1);
-  if (name.size() < 2 || name.size() > 7 || nc::Upper(name[0]) != 'R') return -1;
-  long number = 0;
-  for (const char c : name.substr(1)) {
-    if (!nc::IsDigit(c)) return -1;
-    number = number * 10 + (c - '0');
-  }
-  return number;
-}
-
 bool Fault(SinumerikFault* fault, std::string message) {
   fault->message = std::move(message);
   return false;
@@ -52,10 +40,10 @@ bool SinumerikFlow::State::ReadName(std::string_view name, const std::vector<Val
   last_read = nullptr;
   const bool indexed_r = name.size() == 1 && nc::Upper(name[0]) == 'R' && !indices.empty();
   if (indexed_r) return ReadParameter(indices, value, fault);
-  if (const long number = ParameterNumber(name); number >= 0 && indices.empty()) {
+  if (const long number = RParameterNumber(name); number >= 0 && indices.empty()) {
     return ReadParameter({Value::Int(static_cast<double>(number))}, value, fault);
   }
-  if (name[0] == '$') return ReadSystem(name, indices, value, fault);
+  if (name[0] == '$' || IsGlobalRParameter(name)) return ReadSystem(name, indices, value, fault);
   if (const auto variable = variables.Find(name)) {
     return ReadVariable(variable, indices, value, fault);
   }
@@ -168,7 +156,7 @@ bool SinumerikFlow::State::CallFunction(std::string_view name, const std::vector
       arguments[0].text[0] != '$') {
     const std::string& text = arguments[0].text;
     const std::string_view plain = std::string_view(text).substr(0, text.find('['));
-    *value = Value::Bool(variables.Find(plain) != nullptr || ParameterNumber(plain) >= 0 ||
+    *value = Value::Bool(variables.Find(plain) != nullptr || RParameterNumber(plain) >= 0 ||
                          nc::UpperName(plain) == "R");
     return true;
   }

@@ -66,6 +66,14 @@ TEST(SinumerikVariablesTest, RParametersAreKeptByTheControl) {
   EXPECT_EQ(run.system.assumed, "R102 ");  // Once; R1 has been set.
 }
 
+TEST(SinumerikVariablesTest, OtherWaysToAnRParameter) {
+  EXPECT_EQ(Trace("$R3=5 R[2]=$R3+1\nX=R2\nFOR R[4]=1 TO 2\nY=R4\nENDFOR\n"), "X=6|Y=1|Y=2|");
+  EXPECT_EQ(First("R1=ISVAR(\"R5\")+2*ISVAR(\"_NONE\")\nX=_V\n"), "2:3 12550");
+  EXPECT_EQ(SinumerikTestRun("DEF REAL VV\nR1=ISVAR(\"VV\")+2*ISVAR(\"_NONE\")\n").Value("R1"),
+            1.0);
+  EXPECT_EQ(First("R1=RG5\n"), "1:4 unsupported-code");
+}
+
 TEST(SinumerikVariablesTest, NamesHaveNoCaseAndStringsHave) {
   EXPECT_EQ(Trace("DEF REAL _Home=3\nx=_HOME T=\"Mill\"\n"), "x=3 T=Mill|");
 }
