@@ -28,15 +28,6 @@ struct LineHead {
   bool structure = false;  ///< A word of a control structure stands first.
 };
 
-long ReadDigits(Scanner* scanner) {
-  long value = 0;
-  int digits = 0;
-  for (; IsDigit(scanner->Peek()); scanner->Advance()) {
-    if (++digits <= 9) value = value * 10 + (scanner->Peek() - '0');
-  }
-  return digits == 0 || digits > 9 ? -1 : value;
-}
-
 LineHead ReadHead(Scanner* scanner) {
   LineHead head;
   scanner->SkipSpaces();
@@ -46,13 +37,13 @@ LineHead ReadHead(Scanner* scanner) {
   }
   if (scanner->Peek() == '/') {
     scanner->Advance();
-    ReadDigits(scanner);
+    scanner->ReadDigits();
     scanner->SkipSpaces();
   }
   const char c = Upper(scanner->Peek());
   if ((c == 'N' || c == ':') && IsDigit(scanner->PeekAfter(1))) {
     scanner->Advance();
-    head.number = ReadDigits(scanner);
+    head.number = scanner->ReadDigits();
     scanner->SkipSpaces();
   }
   std::string_view name = PeekName(*scanner);
@@ -235,7 +226,7 @@ std::span<const SinumerikIndex::Place> SinumerikIndex::Places(std::string_view l
     return found->second;
   }
   Scanner scanner(label, 1);
-  const long number = ReadDigits(&scanner);
+  const long number = scanner.ReadDigits();
   if (number < 0 || !scanner.AtEnd()) return {};
   const auto key = static_cast<std::uint32_t>(number);
   const auto first = std::lower_bound(
