@@ -83,7 +83,6 @@ void SinumerikFlow::State::Return() {
     --current.passes;
     current.next = current.start;
     if (current.kind == LevelKind::kSubprogram) {
-      current.started = false;
       variables.ResetLevel(current.parameters);
     }
     if (current.save) events.push_back(SinumerikEvent::kSave);

@@ -43,6 +43,12 @@ TEST(SinumerikCallsTest, TheFirstMainProgramOfAnArchiveIsRun) {
       "X1|M17|X2|M30|");
 }
 
+TEST(SinumerikCallsTest, AProgramEndsAtTheNextHeader) {
+  EXPECT_EQ(Trace("EMPTY P2\n", "%_N_EMPTY_SPF\n; nothing\n%_N_NEXT_SPF\nX1\n"), "M30|");
+  EXPECT_EQ(SinumerikTestRun("%_N_A_MPF\n%_N_B_SPF\nX1\n").trace, "");
+  EXPECT_EQ(SinumerikTestRun("; made by hand\n%_N_A_MPF\nX1\n%_N_B_SPF\nX2\n").trace, "X1|");
+}
+
 TEST(SinumerikCallsTest, Parameters) {
   const std::string head =
       "%_N_SUB_SPF\nPROC SUB(REAL AA, INT BB=9, STRING[20] CC, AXIS DD=X, BOOL EE)\n";

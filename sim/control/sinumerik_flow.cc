@@ -79,6 +79,7 @@ void SinumerikFlow::State::Start() {
       if (!chosen->is_main && section.is_main) chosen = &section;
     }
     first.start = chosen->begin;
+    first.started = true;
   }
   first.next = first.start;
   levels.push_back(std::move(first));
@@ -144,7 +145,7 @@ bool SinumerikFlow::State::ReadBlock() {
   const nc::TextPosition at = level().next;
   nc::ParseSinumerikBlock(*level().text->program, at.offset, at.line, &block);
   ReleasePages();
-  if (block.has_header && level().started) {
+  if (block.has_header && (level().started || level().kind != LevelKind::kMain)) {
     EndOfText();
     return false;
   }
