@@ -7,25 +7,15 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/base/finding.h"
+#include "sim/control/program_files.h"
 #include "sim/nc/program.h"
 #include "sim/nc/program_index.h"
 
 namespace ncsim::control {
-
-/// A loaded text.
-struct ProgramText {
-  std::shared_ptr<const nc::Program> program;
-  int file = 0;  ///< Index into SourceFiles.
-
-  /// Built at the first use.
-  const nc::ProgramIndex& index();
-
- private:
-  std::unique_ptr<nc::ProgramIndex> index_;
-};
 
 struct Subprogram {
   ProgramText* text = nullptr;  ///< Null: not found.
@@ -36,9 +26,10 @@ class Subprograms {
  public:
   /// `folders` are searched after the main program's own.
   Subprograms(std::shared_ptr<const nc::Program> main, const std::vector<std::string>& folders,
-              SourceFiles* files);
+              SourceFiles* files)
+      : files_(std::move(main), folders, files) {}
 
-  ProgramText& main() { return *texts_.front(); }
+  ProgramText& main() { return files_.main(); }
   /// O program `number`: in the calling text, in the main program's, then as a file of its own
   /// (O01234.nc, O1234.nc, 01234.nc, ... in the search folders).
   Subprogram Find(long number, ProgramText& caller);
@@ -46,21 +37,16 @@ class Subprograms {
   /// which are the control's own devices.
   Subprogram FindPath(std::string_view path);
   /// "part's folder, 'subs'": for messages.
-  std::string Places() const;
+  std::string Places() const { return files_.Places(); }
   /// Why the last Find found nothing, if it is not just absence; else "".
-  const std::string& error() const { return error_; }
+  const std::string& error() const { return files_.error(); }
 
  private:
-  ProgramText* Load(const std::string& path);
   Subprogram FindFile(const std::vector<std::string>& names);
 
-  std::vector<std::unique_ptr<ProgramText>> texts_;  ///< The main program's first.
-  std::map<std::string, ProgramText*> by_path_;      ///< Null: tried, and not readable.
-  std::map<long, Subprogram> by_number_;             ///< Files only.
+  ProgramFiles files_;
+  std::map<long, Subprogram> by_number_;  ///< Files only.
   std::map<std::string, Subprogram, std::less<>> by_name_;
-  std::vector<std::string> folders_;  ///< "" or with a '/' at the end.
-  SourceFiles* files_;
-  std::string error_;
 };
 
 }  // namespace ncsim::control

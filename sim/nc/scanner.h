@@ -74,9 +74,19 @@ class Scanner {
     return true;
   }
 
+  /// A block number: up to nine digits; -1 for none or more. Stands behind all of them.
+  long ReadDigits() {
+    long value = 0;
+    int digits = 0;
+    for (; IsDigit(Peek()); Advance()) {
+      if (++digits <= 9) value = value * 10 + (Peek() - '0');
+    }
+    return digits == 0 || digits > 9 ? -1 : value;
+  }
+
   /// "12", "12.", ".5", "1.25": no sign, no exponent. Stands after the last digit or point,
-  /// whatever the status.
-  NumberStatus ReadNumber(Number* number) {
+  /// whatever the status. A value above `limit` is kTooLarge.
+  NumberStatus ReadNumber(Number* number, double limit = kMaxNumber) {
     constexpr std::array<double, 16> kPower = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
     const char* start = p_;
@@ -100,10 +110,10 @@ class Scanner {
       // Mantissa and power are exact doubles: one division rounds once, as from_chars does.
       number->value = static_cast<double>(mantissa);
       if (decimals != 0) number->value /= kPower[decimals];
-      return number->value > kMaxNumber ? NumberStatus::kTooLarge : NumberStatus::kOk;
+      return number->value > limit ? NumberStatus::kTooLarge : NumberStatus::kOk;
     }
     const auto result = std::from_chars(start, p_, number->value, std::chars_format::fixed);
-    if (result.ec != std::errc() || number->value > kMaxNumber) return NumberStatus::kTooLarge;
+    if (result.ec != std::errc() || number->value > limit) return NumberStatus::kTooLarge;
     return NumberStatus::kOk;
   }
 
