@@ -39,6 +39,9 @@ class FiveAxis {
   /// against the other's axis first (B of BC table-table, of C-B head-head and of a B head over a C
   /// table), then the other.
   const std::vector<int>& rotary() const { return rotary_; }
+  /// Direction of each of them (unit) and the tool axis, in frame B with all joints at 0.
+  const Eigen::Vector3d& rotary_direction(std::size_t k) const { return axes_[k].direction; }
+  Eigen::Vector3d tool_axis() const { return -X_BS0_.linear().col(2); }
   int spindle_link() const { return spindle_link_; }
   int table_link() const { return table_link_; }
 

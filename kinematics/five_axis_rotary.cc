@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // FiveAxis::SolveRotary: which rotary positions turn the tool axis to a direction.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "kinematics/chain.h"
 #include "kinematics/five_axis.h"
+#include "kinematics/tilt_triangle.h"
 
 namespace ncsim::kinematics {
 namespace {
 
-/// rad: directions that differ by less are the same.
-constexpr double kSameDirection = 1e-10;
+/// rad: a tilt this near to the edge of its reach has one solution.
+constexpr double kOneSolution = 1e-10;
 /// rad: how far beyond its reach a tool axis may lie and still be taken to the edge (rounded NC
 /// words are normalised).
 constexpr double kReach = 1e-9;
-
-double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// To (-pi, pi].
 double Fold(double angle) {
@@ -26,42 +22,16 @@ double Fold(double angle) {
   return folded <= -std::numbers::pi ? std::numbers::pi : folded;
 }
 
-/// Paden-Kahan subproblem 1: the angle about `axis` that turns `from` to `to`, which make the same
-/// angle with it. By cross products, because near the pole the dot products cancel.
-double AngleAbout(const Eigen::Vector3d& axis, const Eigen::Vector3d& from,
-                  const Eigen::Vector3d& to) {
-  const Eigen::Vector3d a = axis.cross(from);
-  const Eigen::Vector3d b = axis.cross(to);
-  return std::atan2(axis.dot(a.cross(b)), a.dot(b));
-}
-
-/// True when `axis` is parallel to `v`, either way.
-bool Along(const Eigen::Vector3d& axis, const Eigen::Vector3d& v) {
-  return axis.cross(v).norm() < kSameDirection;
-}
-
-/// Angles about `tilt` that turn `tool` to the angle `alpha` from `other`: the sides of a spherical
-/// triangle are Angle(tilt, tool), Angle(tilt, other) and alpha. By half angles, which stay exact
-/// near the pole. None, one or two.
+/// Angles about `tilt` that turn `tool` to the angle `alpha` from `other`. None, one or two.
 std::vector<double> TiltAngles(const Eigen::Vector3d& tilt, const Eigen::Vector3d& other,
                                const Eigen::Vector3d& tool, double alpha) {
-  const double phi_other = Angle(tilt, other);
-  const double phi_tool = Angle(tilt, tool);
-  const double nearest = std::abs(phi_other - phi_tool);
-  const double sum = phi_other + phi_tool;
-  const double farthest = std::min(sum, 2.0 * std::numbers::pi - sum);
-  if (alpha < nearest - kReach || alpha > farthest + kReach) return {};
-
-  const double at_nearest = AngleAbout(tilt, tool, other);  // puts the tool nearest to `other`
-  const double numerator =
-      std::max(0.0, std::sin(0.5 * (alpha + nearest)) * std::sin(0.5 * (alpha - nearest)));
-  const double denominator =
-      std::max(0.0, std::sin(0.5 * (sum + alpha)) * std::sin(0.5 * (sum - alpha)));
-  const double turn = 2.0 * std::atan2(std::sqrt(numerator), std::sqrt(denominator));
-  if (turn < kSameDirection || turn > std::numbers::pi - kSameDirection) {
-    return {Fold(at_nearest + turn)};
+  const TiltTriangle triangle(tilt, other, tool);
+  if (alpha < triangle.nearest() - kReach || alpha > triangle.farthest() + kReach) return {};
+  const double turn = triangle.TurnTo(alpha);
+  if (turn < kOneSolution || turn > std::numbers::pi - kOneSolution) {
+    return {Fold(triangle.at_nearest() + turn)};
   }
-  return {Fold(at_nearest + turn), Fold(at_nearest - turn)};
+  return {Fold(triangle.at_nearest() + turn), Fold(triangle.at_nearest() - turn)};
 }
 
 }  // namespace

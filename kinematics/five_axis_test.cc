@@ -181,6 +181,48 @@ TEST(FiveAxisTest, ForwardOfInverseIsIdentityOverRandomMachines) {
   }
 }
 
+struct Layout {
+  int axes;      // AB, AC, BC
+  int on_table;  // rotary axes that carry the table
+  bool nutating;
+};
+
+class FiveAxisLayoutTest : public testing::TestWithParam<Layout> {};
+
+// FK(IK(x)) = x for tip and tool axis, on every layout by itself.
+TEST_P(FiveAxisLayoutTest, ForwardOfInverseIsIdentity) {
+  Random random(10);
+  for (int i = 0; i < 300; ++i) {
+    MachineOptions options;
+    options.nutating = GetParam().nutating;
+    options.skewed = random.Chance(0.3);
+    options.axes = GetParam().axes;
+    options.on_table = GetParam().on_table;
+    const TestMachine machine = RandomMachine(&random, options);
+    const FiveAxis five_axis = MakeFiveAxis(machine);
+    int on_table = 0;
+    for (const int j : machine.tree.MovingJointsTo(machine.table_link)) {
+      on_table += machine.tree.joints()[j].type == JointType::kRevolute;
+    }
+    ASSERT_EQ(on_table, GetParam().on_table);
+    const JointVector q = RandomPosition(&random, machine.tree);
+    Eigen::Vector3d p_BT_B;
+    Eigen::Vector3d u_B;
+    five_axis.TipInTable(q, 150.0, &p_BT_B, &u_B);
+    const auto solutions = five_axis.SolveRotary(u_B.normalized());
+    ASSERT_FALSE(solutions.empty()) << "machine " << i;
+    ExpectReached(five_axis, p_BT_B, u_B, solutions, q);
+  }
+}
+
+std::vector<Layout> Layouts() {
+  std::vector<Layout> layouts;
+  for (int i = 0; i < 18; ++i) layouts.push_back({i % 3, i / 3 % 3, i >= 9});
+  return layouts;
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, FiveAxisLayoutTest, testing::ValuesIn(Layouts()));
+
 TEST(FiveAxisTest, PoleLeavesTheTableJointFree) {
   const FiveAxis five_axis = MakeFiveAxis(TrunnionBC({0, 0, 0}, {0, 0, 0}));
   const auto at_pole = five_axis.SolveRotary(Eigen::Vector3d::UnitZ());

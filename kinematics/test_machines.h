@@ -96,10 +96,8 @@ inline Eigen::Isometry3d Downward(const Eigen::Vector3d& p) {
 
 /// X, Y, Z carry the spindle, whose gauge line stands at machine (X, Y, Z); B on the base carries
 /// C. B turns about `pivot_b`, C about `pivot_c` (machine frame, at B0); frame B of the table
-/// coincides with M at q = 0. JointVector: X Y Z B C. `sense` -1: ISO (a joint's value is the NC
-/// value of a table axis); +1: the table's own rotation.
-inline TestMachine TrunnionBC(const Eigen::Vector3d& pivot_b, const Eigen::Vector3d& pivot_c,
-                              double sense = -1.0) {
+/// coincides with M at q = 0. JointVector: X Y Z B C, NC values.
+inline TestMachine TrunnionBC(const Eigen::Vector3d& pivot_b, const Eigen::Vector3d& pivot_c) {
   MachineBuilder builder;
   const Eigen::Isometry3d X_origin = Eigen::Isometry3d::Identity();
   int link = builder.Add(0, "X", JointType::kPrismatic, Eigen::Vector3d::UnitX(), X_origin);
@@ -107,9 +105,8 @@ inline TestMachine TrunnionBC(const Eigen::Vector3d& pivot_b, const Eigen::Vecto
   link = builder.Add(link, "Z", JointType::kPrismatic, Eigen::Vector3d::UnitZ(), X_origin);
   builder.Add(link, "spindle_gauge", JointType::kFixed, Eigen::Vector3d::UnitX(),
               Downward(Eigen::Vector3d::Zero()));
-  link = builder.Add(0, "B", JointType::kRevolute, sense * Eigen::Vector3d::UnitY(), At(pivot_b));
-  link =
-      builder.Add(link, "C", JointType::kRevolute, sense * Eigen::Vector3d::UnitZ(), At(pivot_c));
+  link = builder.Add(0, "B", JointType::kRevolute, -Eigen::Vector3d::UnitY(), At(pivot_b));
+  link = builder.Add(link, "C", JointType::kRevolute, -Eigen::Vector3d::UnitZ(), At(pivot_c));
   builder.Add(link, "workpiece_mount", JointType::kFixed, Eigen::Vector3d::UnitX(), X_origin);
   TestMachine machine{builder.Build()};
   machine.spindle_link = machine.tree.FindLink("spindle_gauge_link");
@@ -120,6 +117,8 @@ inline TestMachine TrunnionBC(const Eigen::Vector3d& pivot_b, const Eigen::Vecto
 struct MachineOptions {
   bool nutating = false;  ///< The tilting axis oblique.
   bool skewed = false;    ///< The linear axes not quite square.
+  int axes = -1;          ///< 0: AB, 1: AC, 2: BC; else any.
+  int on_table = -1;      ///< How many of the two rotary axes carry the table; else any.
 };
 
 /// A random machine: table-table, head-table or head-head; AB, AC or BC; the linear joints on
@@ -128,12 +127,17 @@ inline TestMachine RandomMachine(Random* random, const MachineOptions& options =
   const Eigen::Vector3d kAxes[3] = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
                                     Eigen::Vector3d::UnitZ()};
   constexpr int kPairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};  // tilt, other: AB, AC, BC
-  const int pair = random->Below(3);
+  const int any_pair = random->Below(3);
+  const int pair = options.axes < 0 ? any_pair : options.axes;
   Eigen::Vector3d tilt = kAxes[kPairs[pair][0]];
   const Eigen::Vector3d other = kAxes[kPairs[pair][1]];
   if (options.nutating) tilt = (tilt + random->Uniform(0.3, 1.5) * other).normalized();
-  const bool tilt_on_table = random->Chance(0.5);
-  const bool other_on_table = tilt_on_table || random->Chance(0.5);
+  bool tilt_on_table = random->Chance(0.5);
+  bool other_on_table = tilt_on_table || random->Chance(0.5);
+  if (options.on_table >= 0) {
+    tilt_on_table = options.on_table == 2;
+    other_on_table = options.on_table >= 1;
+  }
 
   MachineBuilder builder;
   int link[2] = {0, 0};  // last of the tool branch, of the table branch

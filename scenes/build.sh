@@ -5,7 +5,7 @@
 #   build.sh --check   makes them elsewhere, and fails if what is committed differs
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-stl="$here/../models/haas_umc750/source/stl.py"
+stl="$here/../models/tools/stl.py"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

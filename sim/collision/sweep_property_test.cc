@@ -122,7 +122,7 @@ TEST(SweepPropertyTest, NothingIsMissed) {
     const auto five_axis =
         kinematics::FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
     ASSERT_TRUE(five_axis.has_value());
-    const motion::PathKind kind = motion::kPathKinds[i % 5];
+    const motion::PathKind kind = motion::kPathKinds[i % 6];
     const auto frame = std::make_shared<motion::TcpFrame>(motion::TcpFrame{*five_axis, 120.0, 0.0});
     const motion::Motion motion =
         motion::RandomMotion(&random, kind, machine, frame, random.Uniform(0.02, 0.5));
@@ -235,7 +235,7 @@ TEST(SweepPropertyTest, WhatIsCrossedIsClear) {
         std::make_shared<const ToolBody>(tool, machine::BodyKind::kHolder, machine.spindle_link);
     std::vector<motion::Motion> motions;
     for (int k = 0; k < 6; ++k) {
-      motion::Motion next = motion::RandomMotion(&random, motion::kPathKinds[random.Below(5)],
+      motion::Motion next = motion::RandomMotion(&random, motion::kPathKinds[random.Below(6)],
                                                  machine, frame, random.Uniform(0.005, 0.1));
       if (!motions.empty()) {
         motions.push_back(motion::MakeMotion(motion::AxisLinear{motions.back().q1(), next.q0()}));

@@ -112,7 +112,11 @@ std::string Control(const Machine& machine) {
   const ControlData& control = machine.control;
   std::string text =
       "control: " + (control.dialect.empty() ? std::string("not stated") : control.dialect) + "\n";
-  for (const auto& [name, value] : control.settings) text += "  " + name + " = " + value + "\n";
+  const std::vector<std::string>& nominal = control.nominal_settings;
+  for (const auto& [name, value] : control.settings) {
+    const bool confirmed = std::find(nominal.begin(), nominal.end(), name) == nominal.end();
+    text += "  " + name + " = " + value + (confirmed ? "\n" : ", nominal\n");
+  }
   if (control.rotary_centre) {
     text += "  rotary centre (gauge line at the pivot): X Y Z " + Vector(*control.rotary_centre, 3);
     const std::optional<Eigen::Vector3d> metal = RotaryCentre(machine);

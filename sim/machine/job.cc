@@ -71,8 +71,8 @@ void ReadOffsets(const JobContext& context, TomlTable table, Job* job) {
     if (!OffsetName(entry.key)) {
       table.diagnostics()->Error(table.file(), entry.key_line, entry.key_column,
                                  "'" + entry.key +
-                                     "' is no work offset: G54-G59, G110-G129 and "
-                                     "\"G154 P1\"-\"G154 P99\" are");
+                                     "' is no work offset: G54-G59, G110-G129, "
+                                     "\"G154 P1\"-\"G154 P99\", G500 and G505-G599 are");
     }
     if (auto inner = table.AsTable(entry, entry.key)) {
       ReadOffset(context, entry, std::move(*inner), job);
@@ -176,13 +176,16 @@ void ReadCheck(double unit, TomlTable table, CheckSettings* check) {
 }
 
 void ReadControl(const JobContext& context, TomlTable table, Job* job) {
-  for (const std::string& folder : table.Strings("subprogram_folders")) {
-    job->subprogram_folders.push_back(
-        (std::filesystem::path(context.folder) / folder).lexically_normal().string());
-  }
+  const auto paths = [&](const char* key, std::vector<std::string>* target) {
+    for (const std::string& path : table.Strings(key)) {
+      target->push_back((std::filesystem::path(context.folder) / path).lexically_normal().string());
+    }
+  };
+  paths("subprogram_folders", &job->subprogram_folders);
+  paths("data_files", &job->data_files);
   job->m_codes_without_motion = table.Integers("m_codes_without_motion", 0, 9999);
   // The job does not know the machine's dialect: a setting of any control that ncsim knows is
-  // taken.
+  // taken. BuildScene() holds it against the machine.
   for (const std::string& dialect : Dialects()) {
     ReadSettings(dialect, context.mm_per_unit, &table, &job->control);
   }

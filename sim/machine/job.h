@@ -74,10 +74,13 @@ struct Job {
   bool has_tools = false;  ///< The job states tools: one that it does not list is `tool-missing`.
   std::vector<PlacedBody> bodies;  ///< Fixtures, part, stock, in the order of the file.
   CheckSettings check;
-  /// "setting 9" -> "inch"; lower-case names, values as settings.h normalises them (lengths as mm,
-  /// angles as degrees).
+  /// "setting 9" -> "inch"; names and values as settings.h spells them (lengths as mm, angles as
+  /// degrees).
   std::map<std::string, std::string> control;
   std::vector<std::string> subprogram_folders;  ///< As paths from the current folder.
+  /// NC code that sets tool and work offsets ($TC_DP, $P_UIFR), to be run before the program; paths
+  /// as above.
+  std::vector<std::string> data_files;
   std::vector<int> m_codes_without_motion;
 
   /// The work offset of this name, under either of its names (G110 is G154 P1); nullptr if the job

@@ -129,8 +129,8 @@ const std::vector<RejectCase>& Cases() {
       {"offset_is_a_number",
        {"offset_is_a_number.toml:9:7: error: 'G54' must be a table, not a number"}},
       {"offset_is_no_offset",
-       {"offset_is_no_offset.toml:9:1: error: 'G53' is no work offset: G54-G59, G110-G129 and "
-        "\"G154 P1\"-\"G154 P99\" are"}},
+       {"offset_is_no_offset.toml:9:1: error: 'G53' is no work offset: G54-G59, G110-G129, "
+        "\"G154 P1\"-\"G154 P99\", G500 and G505-G599 are"}},
       {"offset_letter_unknown", {"offset_letter_unknown.toml:9:33: error: unknown key 'W'"}},
       {"offset_placed_with_x",
        {"offset_placed_with_x.toml:10:62: error: an offset that is placed on something has no X: "
@@ -363,9 +363,10 @@ TEST(OffsetNameTest, OneSpellingForEach) {
   EXPECT_EQ(OffsetName("G154 P99"), "G154 P99");
   EXPECT_EQ(OffsetName("G129"), "G129");
   EXPECT_EQ(OffsetName("G59.3"), "G59.3");
-  EXPECT_EQ(OffsetName("G505"), "G505");
-  for (const char* wrong : {"", "G", "G53", "G60", "G130", "G154", "G154 P0", "G154 P100", "G54 P1",
-                            "G59.4", "X54", "G54x", "G-54", "vise"}) {
+  EXPECT_EQ(OffsetName("G500"), "G500");
+  EXPECT_EQ(OffsetName("g505"), "G505");
+  for (const char* wrong : {"", "G", "G53", "G60", "G130", "G154", "G504", "G600", "G154 P0",
+                            "G154 P100", "G54 P1", "G59.4", "X54", "G54x", "G-54", "vise"}) {
     EXPECT_EQ(OffsetName(wrong), std::nullopt) << wrong;
   }
   EXPECT_EQ(TwinOffset("G110"), "G154 P1");

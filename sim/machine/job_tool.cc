@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <utility>
 
 #include "sim/base/text.h"
@@ -97,6 +98,37 @@ Registers ReadRegisters(double unit, TomlTable* table) {
   return {length("h_geometry"), length("h_wear"), length("d_geometry"), length("d_wear")};
 }
 
+/// `edges`: what an edge does not state is as `metal` has it.
+std::vector<ToolEdge> ReadEdges(double unit, const ToolEdge& metal, TomlTable* table) {
+  constexpr int kHighest = 12;  // Edges of a tool, MD18106 at most.
+  std::vector<ToolEdge> edges;
+  for (TomlTable& element : table->Tables("edges")) {
+    ToolEdge edge;
+    std::optional<std::int64_t> number;
+    if (element.Require("number") != nullptr) number = element.Integer("number", 1, kHighest);
+    const auto length = [&](const char* key, double usual) {
+      const std::optional<double> value = element.Number(key);
+      return value ? *value * unit : usual;
+    };
+    edge.length = length("length", metal.length);
+    edge.length_wear = length("length_wear", 0.0);
+    edge.diameter = length("diameter", metal.diameter);
+    edge.diameter_wear = length("diameter_wear", 0.0);
+    element.Finish();
+    if (!number) continue;
+    edge.number = static_cast<int>(*number);
+    if (std::any_of(edges.begin(), edges.end(),
+                    [&](const ToolEdge& other) { return other.number == edge.number; })) {
+      element.ErrorAt(element.value(), "edge D" + std::to_string(edge.number) + " is stated twice");
+    } else {
+      edges.push_back(edge);
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const ToolEdge& a, const ToolEdge& b) { return a.number < b.number; });
+  return edges;
+}
+
 void Append(const std::string& text, std::string* list) {
   *list += (list->empty() ? "" : ", ") + text;
 }
@@ -121,6 +153,12 @@ std::optional<Tool> ReadTool(const JobContext& context, TomlTable table) {
   std::string assumed_holder;
   spec.holder = ReadHolder(unit, &table, &assumed_holder);
   const Registers registers = ReadRegisters(unit, &table);
+  const ToolEdge metal{1, spec.length, 0.0, cutter ? cutter->diameter : 0.0, 0.0};
+  std::vector<ToolEdge> edges = ReadEdges(unit, metal, &table);
+  if (!edges.empty() &&
+      (registers.h_geometry || registers.h_wear || registers.d_geometry || registers.d_wear)) {
+    table.ErrorAt(table.value(), "'edges' are the registers of D1 and on: state one or the other");
+  }
   table.Finish();
   const auto& all = table.diagnostics()->all();
   for (std::size_t i = before; i < all.size(); ++i) {
@@ -145,6 +183,7 @@ std::optional<Tool> ReadTool(const JobContext& context, TomlTable table) {
   tool.h_wear = registers.h_wear.value_or(0.0);
   tool.d_geometry = registers.d_geometry.value_or(tool.d_geometry);
   tool.d_wear = registers.d_wear.value_or(0.0);
+  tool.edges = std::move(edges);
   return tool;
 }
 

@@ -13,6 +13,7 @@
 #include "sim/machine/rotary_centre.h"
 #include "sim/machine/settings.h"
 #include "sim/machine/srdf.h"
+#include "sim/machine/trafo_type.h"
 #include "sim/machine/urdf.h"
 
 namespace ncsim::machine {
@@ -194,6 +195,13 @@ void CheckToolChange(const ModelToml& model, const Machine& machine, Diagnostics
   }
 }
 
+void CheckTrafoType(const ModelToml& model, const Machine& machine, Diagnostics* diagnostics) {
+  const auto type = machine.control.numbers.find("MD24100");
+  if (type == machine.control.numbers.end()) return;
+  const std::string fault = TrafoTypeFault(machine, static_cast<int>(type->second));
+  if (!fault.empty()) diagnostics->Error(model.file, 0, 0, fault);
+}
+
 }  // namespace
 
 std::optional<Machine> LoadMachine(const std::string& urdf_path, Diagnostics* diagnostics) {
@@ -216,6 +224,7 @@ std::optional<Machine> LoadMachine(const std::string& urdf_path, Diagnostics* di
   AddAxes(*urdf, model, &machine, diagnostics);
   machine.control.rotary_centre = RotaryCentre(machine);
   ApplySettings(model.settings, &machine.control);
+  CheckTrafoType(model, machine, diagnostics);
   CheckToolChange(model, machine, diagnostics);
 
   Srdf srdf;

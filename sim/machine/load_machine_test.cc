@@ -79,8 +79,8 @@ const std::vector<RejectCase>& Cases() {
        {"model.toml:15:7: error: unknown key 'W'",
         "model.urdf:29: warning: joint 'C' is no axis of the control: it stays at 0"}},
       {"unknown_dialect.toml",
-       {"model.toml:30:11: error: 'dialect' must be \"haas-ngc\", not \"hass-ngc\" (did you mean "
-        "'haas-ngc'?)"}},
+       {"model.toml:30:11: error: 'dialect' must be \"haas-ngc\" or \"sinumerik-840d\", not "
+        "\"hass-ngc\" (did you mean 'haas-ngc'?)"}},
       {"unknown_frame.toml",
        {"model.toml:18:11: error: there is no link 'spindle_guage', the spindle frame (did you "
         "mean 'spindle_gauge'?)"}},

@@ -41,9 +41,11 @@ struct LinkBody {
 
 /// A control's own settings, as data: "setting 335" -> "none". Typed access in the control module.
 struct ControlData {
-  std::string dialect;  ///< "haas-ngc".
+  std::string dialect;  ///< "haas-ngc", "sinumerik-840d".
   std::map<std::string, std::string>
-      settings;  ///< By the control's names, lower case, as settings.h normalises.
+      settings;  ///< By the control's names, as settings.h spells and normalises them.
+  /// Those of them that nobody has read off the machine: an assumption where the job is silent.
+  std::vector<std::string> nominal_settings;
   std::map<std::string, double> numbers;    ///< Those of them that are numbers: mm, rad, or plain.
   std::map<char, double> tool_change_pose;  ///< Axis letter -> machine value (mm, rad).
   std::vector<std::string> tool_change_order = {"Z", "XY"};  ///< Letters of a step go together.

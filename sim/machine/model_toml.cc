@@ -101,11 +101,19 @@ void ReadControl(double unit, TomlTable table, ModelToml* model) {
     control.subprogram_folders.push_back((folder / subprograms).lexically_normal().string());
   }
   control.m_codes_without_motion = table.Integers("m_codes_without_motion", 0, 9999);
+  control.nominal_settings = table.Strings("nominal_settings");
   if (std::optional<TomlTable> settings = table.Table("settings")) {
     if (!control.dialect.empty()) {
       ReadSettings(control.dialect, unit, &*settings, &model->settings);
       settings->Finish();
     }
+  }
+  for (const std::string& name : control.nominal_settings) {
+    if (model->settings.contains(name)) continue;
+    std::vector<std::string> stated;
+    for (const auto& [known, value] : model->settings) stated.push_back(known);
+    table.ErrorAt(*table.Get("nominal_settings"),
+                  "'" + name + "' is not stated in [control.settings]" + DidYouMean(name, stated));
   }
   table.Finish();
 }

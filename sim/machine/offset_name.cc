@@ -33,7 +33,7 @@ std::optional<std::string> OffsetName(std::string_view text) {
     return "G" + std::string(code) + " P" + std::to_string(*row);
   }
   if (code == "59.1" || code == "59.2" || code == "59.3") return "G" + std::string(code);
-  for (const auto& [lowest, highest] : {std::pair(54, 59), {110, 129}, {500, 599}}) {
+  for (const auto& [lowest, highest] : {std::pair(54, 59), {110, 129}, {500, 500}, {505, 599}}) {
     if (const auto number = Whole(code, lowest, highest)) return "G" + std::to_string(*number);
   }
   return std::nullopt;

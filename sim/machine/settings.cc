@@ -7,44 +7,10 @@
 
 #include "sim/base/text.h"
 #include "sim/base/units.h"
+#include "sim/machine/settings_tables.h"
 
 namespace ncsim::machine {
 namespace {
-
-/// The settings of Haas NGC that the simulator knows (NGC Mill Operator's Manual 2017, "Settings").
-std::vector<Setting> MakeHaasSettings() {
-  std::vector<Setting> settings;
-  const auto add = [&](SettingKind kind, const std::vector<int>& numbers) {
-    for (const int number : numbers) {
-      settings.push_back({"setting " + std::to_string(number), kind, {}});
-    }
-  };
-  const auto words = [&](int number, std::vector<std::string> values) {
-    settings.push_back(
-        {"setting " + std::to_string(number), SettingKind::kWord, std::move(values)});
-  };
-  add(SettingKind::kSwitch,
-      {15, 28, 29, 36, 42, 45, 46, 47, 48, 56, 57, 73, 80, 108, 118, 133, 162, 247, 250});
-  add(SettingKind::kLength, {22,  34,  35,  52,  79,  85,  254, 255, 256, 257, 268,
-                             269, 270, 293, 294, 295, 300, 301, 302, 303, 304, 305});
-  add(SettingKind::kAngle, {72, 271, 272, 273, 296, 297, 298});
-  add(SettingKind::kNumber, {44, 71, 130, 188, 189, 190});
-  add(SettingKind::kText, {251, 252});
-  words(9, {"inch", "mm"});
-  words(27, {"x+", "x-", "y+", "y-"});
-  words(33, {"fanuc", "haas"});
-  words(40, {"radius", "diameter"});
-  words(43, {"a", "b"});
-  words(58, {"fanuc", "yasnac"});
-  words(77, {"default", "integer"});
-  words(191, {"rough", "medium", "finish"});
-  words(335, {"none", "linear", "linear+rotary"});
-  settings.push_back({"block_skip", SettingKind::kSwitch, {}});
-  settings.push_back({"optional_stop", SettingKind::kSwitch, {}});
-  settings.push_back({"software_version", SettingKind::kText, {}});
-  settings.push_back({"tcp_rapid", SettingKind::kWord, {"hold", "track"}});
-  return settings;
-}
 
 std::string Lower(std::string text) {
   for (char& c : text) {
@@ -62,12 +28,14 @@ std::optional<double> ToNumber(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::string> Dialects() { return {"haas-ngc"}; }
+std::vector<std::string> Dialects() { return {"haas-ngc", "sinumerik-840d"}; }
 
 const std::vector<Setting>& SettingsOf(std::string_view dialect) {
-  static const std::vector<Setting> haas = MakeHaasSettings();
+  static const std::vector<Setting> haas = HaasSettings();
+  static const std::vector<Setting> sinumerik = SinumerikSettings();
   static const std::vector<Setting> none;
-  return dialect == "haas-ngc" ? haas : none;
+  if (dialect == "haas-ngc") return haas;
+  return dialect == "sinumerik-840d" ? sinumerik : none;
 }
 
 std::optional<std::string> NormaliseSetting(const Setting& setting, const TomlTable& table,
@@ -80,8 +48,11 @@ std::optional<std::string> NormaliseSetting(const Setting& setting, const TomlTa
       const std::vector<std::string> on_off = {"on", "off"};
       const std::vector<std::string>& words = is_switch ? on_off : setting.words;
       if (is_switch && value.kind == TomlValue::Kind::kBoolean) return value.boolean ? "on" : "off";
-      const std::string word = is_text ? Lower(value.text) : "";
-      if (std::find(words.begin(), words.end(), word) != words.end()) return word;
+      const auto same = [&](const std::string& word) {
+        return is_text && Lower(word) == Lower(value.text);
+      };
+      const auto found = std::find_if(words.begin(), words.end(), same);
+      if (found != words.end()) return *found;
       std::string list;
       for (const std::string& choice : words) list += (list.empty() ? "" : ", ") + choice;
       table.ErrorAt(value, "'" + setting.name + "' must be one of: " + list);
@@ -90,6 +61,15 @@ std::optional<std::string> NormaliseSetting(const Setting& setting, const TomlTa
     case SettingKind::kText:
       if (is_text) return value.text;
       table.ErrorAt(value, "'" + setting.name + "' must be a string");
+      return std::nullopt;
+    case SettingKind::kWhole:
+      if (value.kind == TomlValue::Kind::kInteger && value.integer >= setting.lowest &&
+          value.integer <= setting.highest) {
+        return std::to_string(value.integer);
+      }
+      table.ErrorAt(value, "'" + setting.name + "' must be a whole number from " +
+                               std::to_string(setting.lowest) + " to " +
+                               std::to_string(setting.highest));
       return std::nullopt;
     case SettingKind::kLength:
     case SettingKind::kAngle:
@@ -122,7 +102,7 @@ void ApplySettings(const std::map<std::string, std::string>& settings, ControlDa
     while (it != known.end() && it->name != name) ++it;
     if (it == known.end()) continue;
     const bool numeric = it->kind == SettingKind::kLength || it->kind == SettingKind::kAngle ||
-                         it->kind == SettingKind::kNumber;
+                         it->kind == SettingKind::kNumber || it->kind == SettingKind::kWhole;
     const std::optional<double> number = numeric ? ToNumber(text) : std::nullopt;
     if (!number) continue;
     control->numbers[name] = it->kind == SettingKind::kAngle ? Radians(*number) : *number;

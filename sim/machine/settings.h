@@ -3,6 +3,7 @@
 // take.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,24 +14,25 @@
 
 namespace ncsim::machine {
 
-enum class SettingKind { kWord, kSwitch, kLength, kAngle, kNumber, kText };
+enum class SettingKind { kWord, kSwitch, kLength, kAngle, kNumber, kWhole, kText };
 
 struct Setting {
-  std::string name;  ///< "setting 335"; lower case.
+  std::string name;  ///< "setting 335", "MD20150[7]": as the control's people write it.
   SettingKind kind = SettingKind::kNumber;
-  std::vector<std::string> words;  ///< kWord: all that it takes.
+  std::vector<std::string> words = {};   ///< kWord: all that it takes.
+  std::int64_t lowest = 0, highest = 0;  ///< kWhole.
 };
 
-/// Dialects whose settings are known: "haas-ngc".
+/// Dialects whose settings are known: "haas-ngc", "sinumerik-840d".
 std::vector<std::string> Dialects();
 
 /// All settings of a dialect, and the switches of the operator's panel; empty for an unknown
 /// dialect.
 const std::vector<Setting>& SettingsOf(std::string_view dialect);
 
-/// The value of one setting as text: words and switches ("on", "off") in lower case, lengths in mm,
-/// angles in degrees, numbers with at most six decimals. nullopt (reported) when the value makes no
-/// sense. `mm_per_unit` scales lengths.
+/// The value of one setting as text: words and switches ("on", "off") as the table spells them,
+/// whatever their case; lengths in mm, angles in degrees, numbers with at most six decimals.
+/// nullopt (reported) when the value makes no sense. `mm_per_unit` scales lengths.
 std::optional<std::string> NormaliseSetting(const Setting& setting, const TomlTable& table,
                                             const TomlValue& value, double mm_per_unit);
 

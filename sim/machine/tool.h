@@ -31,6 +31,13 @@ struct Profile {
 
 enum class CutterType { kEnd, kBall, kBull, kDrill, kTaper, kChamfer };
 
+/// A cutting edge's registers in the control (SINUMERIK: D1 ...), mm; geometry and wear add up.
+struct ToolEdge {
+  int number = 1;
+  double length = 0.0, length_wear = 0.0;
+  double diameter = 0.0, diameter_wear = 0.0;
+};
+
 /// A tool assembly. Profiles are measured from the TIP (z = 0) up to the gauge line (z = length).
 struct Tool {
   int number = 0;
@@ -44,6 +51,8 @@ struct Tool {
   // The control's registers where they differ from the metal; geometry defaults to length and
   // diameter.
   double h_geometry = 0.0, h_wear = 0.0, d_geometry = 0.0, d_wear = 0.0;
+  /// Ascending numbers. Empty where the job states none: then those four are the registers of D1.
+  std::vector<ToolEdge> edges;
   /// Non-empty: shape or length were assumed or read from the program's header; why, in words.
   std::string assumed;
 };

@@ -67,10 +67,9 @@ struct BoxOver {
   }
 
   JointBox operator()(const TcpCurve& path) const {
-    JointBox box =
-        Between(Interpolate(path.q0, path.q1, span.s0), Interpolate(path.q0, path.q1, span.s1));
+    JointBox box = RotaryOver(path, span.s0, span.s1);
     const double middle = 0.5 * (span.s0 + span.s1);
-    JointVector q = Interpolate(path.q0, path.q1, middle);
+    JointVector q = RotaryAt(path, middle);
     path.frame->control.SolveLinear(TipPoint(path, middle), path.frame->length, &q);
     const TcpReach reach = Reach(path, q, middle, 0.5 * (span.s1 - span.s0));
     for (const int i : path.frame->control.linear()) {

@@ -32,7 +32,7 @@ struct PositionAt {
   }
 
   JointVector operator()(const TcpCurve& path) const {
-    JointVector q = Interpolate(path.q0, path.q1, s);
+    JointVector q = RotaryAt(path, s);
     path.frame->control.SolveLinear(TipPoint(path, s), path.frame->length, &q);
     return q;
   }

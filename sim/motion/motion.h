@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "kinematics/five_axis.h"
+#include "kinematics/great_circle.h"
 #include "kinematics/relative_bound.h"
 #include "sim/base/finding.h"
 
@@ -81,9 +82,13 @@ struct TcpFrame {
 };
 
 /// The tip follows a line or an arc in the table frame B (as the control sees it); rotary joints in
-/// proportion; the linear joints follow from FiveAxis::SolveLinear.
+/// proportion, or as the tool axis' way along a great circle asks; the linear joints follow from
+/// FiveAxis::SolveLinear.
 struct TcpCurve {
   std::shared_ptr<const TcpFrame> frame;
+  /// The tool axis' way in B (null: rotary joints in proportion). q0 and q1 are at its start() and
+  /// end().
+  std::shared_ptr<const kinematics::GreatCircle> great_circle;
   JointVector q0, q1;  ///< Machine values at the ends (linear joints included).
   bool arc = false;
   Eigen::Vector3d p0_B, p1_B;                        ///< Tip, line.

@@ -45,7 +45,7 @@ double TipTravel(const TcpCurve& curve, double ds) {
 TcpReach Reach(const TcpCurve& curve, const JointVector& q, double s, double ds) {
   const kinematics::FiveAxis& control = curve.frame->control;
   TcpReach reach;
-  reach.deviation = ds * (curve.q1 - curve.q0).cwiseAbs();
+  reach.deviation = RotaryTravel(curve, s, ds);
   const std::array<double, 2> radii = control.TipRadii(TipPoint(curve, s), curve.frame->length, q);
   reach.linear_distance = TipTravel(curve, ds);
   for (std::size_t k = 0; k < control.rotary().size(); ++k) {

@@ -41,6 +41,12 @@ class DogLegClock {
 Eigen::Vector3d ArcPoint(const AxisArc& arc, double s);
 /// The tip of the control's tool in B.
 Eigen::Vector3d TipPoint(const TcpCurve& curve, double s);
+/// All joints but the linear ones, which are in proportion.
+JointVector RotaryAt(const TcpCurve& curve, double s);
+/// What all joints but the linear ones take over [s0, s1], within [0, 1].
+JointBox RotaryOver(const TcpCurve& curve, double s0, double s1);
+/// How far each of them gets from where it is at `s` within `ds` of it.
+JointVector RotaryTravel(const TcpCurve& curve, double s, double ds);
 /// Upper bound of the distance between two tips whose s differ by at most `ds`.
 double TipTravel(const TcpCurve& curve, double ds);
 

@@ -14,19 +14,18 @@ bool Contains(const std::vector<int>& values, int value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// Spindle against table within `ds` of the pose `q`, for a ball about `p_SC` in S. A point of the
-/// tool stands at tip + R v, v fixed in S: it moves with the tip, and turns about it. What the
-/// metal's rotary centres differ from the control's adds its share. The linear joints of `q` do not
-/// matter.
-double ToolBound(const TcpCurve& curve, const JointVector& q, double ds,
+/// Spindle against table within `ds` of the pose `q`, for a ball about `p_SC` in S, while the
+/// rotary joints turn by at most `turn`. A point of the tool stands at tip + R v, v fixed in S: it
+/// moves with the tip, and turns about it. What the metal's rotary centres differ from the
+/// control's adds its share. The linear joints of `q` and `turn` do not matter.
+double ToolBound(const TcpCurve& curve, const JointVector& q, double ds, const JointVector& turn,
                  const Eigen::Vector3d& p_SC, double radius) {
   const kinematics::FiveAxis& control = curve.frame->control;
   const Eigen::Vector3d v_S = p_SC - Eigen::Vector3d(0.0, 0.0, curve.frame->length);
   const std::array<double, 2> radii = control.RadiiAboutTip(v_S, q);
   double bound = TipTravel(curve, ds);
   for (std::size_t k = 0; k < control.rotary().size(); ++k) {
-    const int joint = control.rotary()[k];
-    const double chord = kinematics::Chord(ds * std::abs(curve.q1[joint] - curve.q0[joint]));
+    const double chord = kinematics::Chord(turn[control.rotary()[k]]);
     bound += chord * (radii[k] + radius + curve.frame->centre_error);
   }
   return bound;
@@ -40,14 +39,16 @@ double DetourBound(const TcpCurve& curve, const PairPath& pair, const JointVecto
   const kinematics::Extent in_table{0, detour.a_from_table.Pose(q) * pair.a.p_LC, pair.a.radius};
   const Eigen::Vector3d p_SC = detour.a_from_spindle.Pose(q) * pair.a.p_LC;
   return detour.table_from_b.Bound(q, in_table, reach.deviation, prismatic_limit) +
-         ToolBound(curve, q, ds, p_SC, pair.a.radius) +
+         ToolBound(curve, q, ds, reach.deviation, p_SC, pair.a.radius) +
          detour.a_from_spindle.Bound(q, pair.a, reach.deviation, prismatic_limit);
 }
 
 double TcpBound(const TcpCurve& curve, const PairPath& pair, const Span& span, double s_ref) {
   const double ds = std::max(span.s1 - s_ref, s_ref - span.s0);
-  JointVector q = Interpolate(curve.q0, curve.q1, s_ref);
-  if (pair.tool_to_table) return ToolBound(curve, q, ds, pair.p_SC, pair.a.radius);
+  JointVector q = RotaryAt(curve, s_ref);
+  if (pair.tool_to_table) {
+    return ToolBound(curve, q, ds, RotaryTravel(curve, s_ref, ds), pair.p_SC, pair.a.radius);
+  }
   curve.frame->control.SolveLinear(TipPoint(curve, s_ref), curve.frame->length, &q);
   const TcpReach reach = Reach(curve, q, s_ref, ds);
   const double prismatic_limit = curve.frame->control.linear_square()

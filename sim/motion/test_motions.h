@@ -37,8 +37,9 @@ void MakeArc(Random* random, double scale, Curve* curve) {
 
 inline JointVector Nudge(Random* random, const kinematics::KinematicTree& tree,
                          const JointVector& q0, double scale) {
-  JointVector q1 = q0;
+  JointVector q1(q0.size());
   for (int i = 0; i < tree.num_moving(); ++i) {
+    q1[i] = q0[i];
     if (random->Chance(0.2)) continue;
     const bool revolute =
         tree.joints()[tree.moving_joints()[i]].type == kinematics::JointType::kRevolute;
@@ -69,10 +70,10 @@ inline DogLeg RandomDogLeg(Random* random, const kinematics::KinematicTree& tree
   return path;
 }
 
-enum class PathKind { kAxisLinear, kDogLeg, kAxisArc, kTcpLine, kTcpArc };
+enum class PathKind { kAxisLinear, kDogLeg, kAxisArc, kTcpLine, kTcpArc, kTcpCircle };
 inline constexpr PathKind kPathKinds[] = {PathKind::kAxisLinear, PathKind::kDogLeg,
-                                          PathKind::kAxisArc, PathKind::kTcpLine,
-                                          PathKind::kTcpArc};
+                                          PathKind::kAxisArc,    PathKind::kTcpLine,
+                                          PathKind::kTcpArc,     PathKind::kTcpCircle};
 
 inline std::string ToString(PathKind kind) {
   switch (kind) {
@@ -86,8 +87,26 @@ inline std::string ToString(PathKind kind) {
       return "TcpLine";
     case PathKind::kTcpArc:
       return "TcpArc";
+    case PathKind::kTcpCircle:
+      return "TcpGreatCircle";
   }
   return "";
+}
+
+/// Leads the tool axis along the great circle from q0 towards q1; a curve that cannot be led so is
+/// left as it is.
+inline void MakeGreatCircle(TcpCurve* curve) {
+  const std::vector<int>& rotary = curve->frame->control.rotary();
+  auto circle = std::make_shared<kinematics::GreatCircle>();
+  const auto fault = kinematics::GreatCircle::Make(
+      curve->frame->control, {curve->q0[rotary[0]], curve->q0[rotary[1]]},
+      {curve->q1[rotary[0]], curve->q1[rotary[1]]}, circle.get());
+  if (fault != kinematics::GreatCircle::Fault::kNone) return;
+  for (std::size_t k = 0; k < 2; ++k) {
+    curve->q0[rotary[k]] = circle->start()[k];
+    curve->q1[rotary[k]] = circle->end()[k];
+  }
+  curve->great_circle = std::move(circle);
 }
 
 /// `scale` 1: up to some hundred mm and 2 rad. TCP curves are computed by `control`.
@@ -116,7 +135,8 @@ inline Motion RandomMotion(Random* random, PathKind kind, const TestMachine& mac
   curve.frame = frame;
   curve.q0 = q0;
   curve.q1 = q1;
-  curve.arc = kind == PathKind::kTcpArc;
+  curve.arc = kind == PathKind::kTcpArc || (kind == PathKind::kTcpCircle && random->Chance(0.5));
+  if (kind == PathKind::kTcpCircle) MakeGreatCircle(&curve);
   MakeArc(random, scale, &curve);
   curve.p0_B = random->InBox(200.0);
   curve.p1_B = curve.p0_B + scale * random->InBox(100.0);

@@ -27,7 +27,7 @@ struct Measures {
 
 Measures OfTcp(const TcpCurve& curve) {
   const kinematics::FiveAxis& control = curve.frame->control;
-  JointVector q = Interpolate(curve.q0, curve.q1, 0.5);
+  JointVector q = RotaryAt(curve, 0.5);
   control.SolveLinear(TipPoint(curve, 0.5), curve.frame->length, &q);
   // Within half the way of the middle, so within twice that of an end.
   const TcpReach reach = Reach(curve, q, 0.5, 0.5);
@@ -117,6 +117,9 @@ class Meter {
     for (std::size_t k = 0; k < five_axis_->rotary().size(); ++k) {
       measures.axis += kinematics::Chord(measures.joints[five_axis_->rotary()[k]]) *
                        std::max(from.radii[k], to.radii[k]);
+    }
+    if (curve != nullptr && curve->great_circle != nullptr) {
+      measures.axis = std::min(measures.axis, kinematics::Chord(curve->great_circle->angle()));
     }
     if (curve != nullptr) {
       // The control leads its own tip; the metal's is somewhere else on the tool's axis.

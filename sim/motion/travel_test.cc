@@ -22,7 +22,7 @@ std::vector<Motion> RandomRun(Random* random, const TestMachine& machine,
                               const std::shared_ptr<const TcpFrame>& frame) {
   const double scale = std::pow(10.0, random->Uniform(-3.0, 0.0));
   const auto any = [&] {
-    return RandomMotion(random, kPathKinds[random->Below(5)], machine, frame, scale);
+    return RandomMotion(random, kPathKinds[random->Below(6)], machine, frame, scale);
   };
   std::vector<Motion> motions{any()};
   const JointVector q = motions.front().q1();

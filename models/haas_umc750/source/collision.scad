@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Coarse shapes that contain the visual ones (contains.py proves it), in the same frames. Round ones are circumscribed.
 include <dimensions.scad>
-use <shapes.scad>
+use <../../tools/shapes.scad>
 part = "platter";
 coarse = 32;
 

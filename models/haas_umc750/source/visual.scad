@@ -2,7 +2,7 @@
 // Detailed shapes, each in the frame of its link: base and carriage, ram and head as they stand at machine zero in the
 // machine frame, the trunnion about the pivot, the platter about the centre of its face.
 include <dimensions.scad>
-use <shapes.scad>
+use <../../tools/shapes.scad>
 part = "platter";
 fine = 96;
 
