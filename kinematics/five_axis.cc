@@ -162,4 +162,28 @@ std::array<double, 2> FiveAxis::RadiiAboutTip(const Eigen::Vector3d& v_S,
   return radii;
 }
 
+std::vector<double> FiveAxis::Parameters() const {
+  // Does not compile when a member is added: it belongs in here too.
+  const auto& [spindle, table, linear, rotary, axes, before, directions, inverse, gain, square, X] =
+      *this;
+  std::vector<double> numbers{static_cast<double>(spindle), static_cast<double>(table),
+                              static_cast<double>(before), square ? 1.0 : 0.0};
+  const auto add = [&numbers](const auto& matrix) {
+    numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.size());
+  };
+  for (const std::vector<int>* joints : {&linear, &rotary}) {
+    numbers.push_back(static_cast<double>(joints->size()));
+    numbers.insert(numbers.end(), joints->begin(), joints->end());
+  }
+  for (const RotaryAxis& axis : axes) {
+    add(axis.direction);
+    add(axis.point);
+  }
+  add(directions);
+  add(inverse);
+  add(gain);
+  add(X.matrix());
+  return numbers;
+}
+
 }  // namespace ncsim::kinematics

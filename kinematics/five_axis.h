@@ -74,6 +74,8 @@ class FiveAxis {
   /// True when the linear axes are square to each other: then a tool displacement of d moves no set
   /// of them by more than d.
   bool linear_square() const { return linear_square_; }
+  /// All that it knows, as numbers: two that have the same ones give the same answers.
+  std::vector<double> Parameters() const;
 
  private:
   /// A rotary joint at q = 0, in frame B.

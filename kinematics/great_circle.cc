@@ -23,6 +23,8 @@ constexpr double kReach = 1e-9;
 /// tilt is known to the root of the rounding only.
 constexpr double kSameEnd = 1e-7;
 constexpr double kRounding = 1e-12;
+/// rad: of Alpha(). At the edge of the reach it comes to 1e-7 of the tilt.
+constexpr double kAlphaRounding = 2e-15;
 
 /// A multiple of `period`, counted from `first`, lies strictly between a < b, by more than
 /// `margin`.
@@ -140,13 +142,10 @@ GreatCircle::Fault GreatCircle::Anchor(const std::array<double, 2>& from,
     *found = stated + whole;
     return true;
   };
-  const bool free_start = meridian_ && Alpha(psi0_) < kMeridian;
-  const bool free_end = meridian_ && Alpha(psi1) < kMeridian;
-  const bool opposite_start = meridian_ && Alpha(psi0_) > kPi - kMeridian;
-  const bool opposite_end = meridian_ && Alpha(psi1) > kPi - kMeridian;
+  const auto at_pole = [&](double way) { return meridian_ && std::sin(Alpha(way)) < kMeridian; };
   const bool fits = settle(from[0], &start_[0]) && settle(to[0], &end_[0]) &&
-                    (free_start || opposite_start || settle(from[1], &start_[1])) &&
-                    (free_end || opposite_end || settle(to[1], &end_[1]));
+                    (at_pole(psi0_) || settle(from[1], &start_[1])) &&
+                    (at_pole(psi1) || settle(to[1], &end_[1]));
   return fits ? Fault::kNone : Fault::kOtherBranch;
 }
 
@@ -165,8 +164,8 @@ std::array<GreatCircle::Range, 2> GreatCircle::RotaryOver(double s0, double s1) 
   const double psi0 = psi0_ + std::max(0.0, s0) * angle_;
   const double psi1 = psi0_ + std::min(1.0, s1) * angle_;
   const Range alpha = AlphaOver(psi0, psi1);
-  const double turn0 = triangle_.TurnTo(alpha.lower);
-  const double turn1 = triangle_.TurnTo(alpha.upper);
+  const double turn0 = triangle_.TurnTo(std::max(0.0, alpha.lower - kAlphaRounding));
+  const double turn1 = triangle_.TurnTo(std::min(kPi, alpha.upper + kAlphaRounding));
   const auto [azimuth0, azimuth1] = std::minmax({Azimuth(psi0), Azimuth(psi1)});
   auto [tool0, tool1] = std::minmax({triangle_.Azimuth(turn0), triangle_.Azimuth(turn1)});
   const double extreme = triangle_.TurnOfExtremeAzimuth();

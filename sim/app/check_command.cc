@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/app/app.h"
+#include "sim/app/cache_folder.h"
 #include "sim/app/check_program.h"
 #include "sim/collision/threads.h"
 
@@ -18,10 +19,10 @@ namespace {
 
 /// An internal error of one program must not take the others' results with it.
 ProgramOutcome CheckCatching(const CheckOptions& options, const std::string& program,
-                             const ProgressReport& progress) {
+                             const ProgressReport& progress, const collision::OutcomeCache* cache) {
   ProgramOutcome outcome;
   try {
-    return CheckProgram(options, program, progress);
+    return CheckProgram(options, program, progress, cache);
   } catch (const std::exception& error) {
     outcome.messages = program + ": internal error: " + error.what() + "\n";
   } catch (...) {
@@ -31,14 +32,15 @@ ProgramOutcome CheckCatching(const CheckOptions& options, const std::string& pro
   return outcome;
 }
 
-/// `terminal`: where to show how far it is, or null.
-std::vector<ProgramOutcome> CheckAll(const CheckOptions& options, std::ostream* terminal) {
+/// `cache` may be null; `terminal`: where to show how far it is, or null.
+std::vector<ProgramOutcome> CheckAll(const CheckOptions& options,
+                                     const collision::OutcomeCache* cache, std::ostream* terminal) {
   std::vector<ProgramOutcome> outcomes(options.programs.size());
   ProgressBar bar(options.programs, terminal);
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < outcomes.size(); i = next++) {
-      outcomes[i] = CheckCatching(options, options.programs[i], bar.ReportOf(i));
+      outcomes[i] = CheckCatching(options, options.programs[i], bar.ReportOf(i), cache);
       bar.Finish(i);
     }
   };
@@ -81,13 +83,24 @@ int Check(const CheckOptions& options, std::ostream& out, std::ostream& err) {
       return kExitBadInput;
     }
   }
+  std::optional<CacheFolder> cache;
+  if (!options.cache.empty()) {
+    cache = CacheFolder::Open(options.cache, err);
+    if (!cache) return kExitBadInput;
+  }
   const bool progress = &err == &std::cerr && StderrShowsProgress();
-  const std::vector<ProgramOutcome> outcomes = CheckAll(options, progress ? &err : nullptr);
+  const std::vector<ProgramOutcome> outcomes =
+      CheckAll(options, cache ? cache->outcomes() : nullptr, progress ? &err : nullptr);
   std::vector<int> codes;
+  std::uint64_t all = 0;
+  std::uint64_t recalled = 0;
   for (const ProgramOutcome& outcome : outcomes) {
     err << outcome.messages;
     codes.push_back(outcome.exit_code);
+    all += outcome.outcomes;
+    recalled += outcome.recalled;
   }
+  if (cache) cache->Finish(recalled, all, err);
   if (options.out.empty()) {
     WriteReports(options, outcomes, out);
     return CombinedExit(codes);

@@ -262,6 +262,62 @@ TEST_F(CheckCommandTest, SeveralProgramsGiveTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_THAT(out_, HasSubstr("fail, stock"));
 }
 
+TEST_F(CheckCommandTest, ACacheChangesNoByteOfAReport) {
+  const std::string good = Write("a.nc", Program("G01 Z10.5 F500."));
+  const std::string bad = Write("b.nc", Program("G01 Z-3. F500."));
+  const std::string cache = Path("deep/cache");
+  for (const std::string format : {"json", "text"}) {
+    const std::vector<std::string> plain{good, bad, "--format", format};
+    std::vector<std::string> cached = plain;
+    cached.insert(cached.end(), {"--cache", cache, "--jobs", "2"});
+    EXPECT_EQ(CheckWithJob(plain), kExitFail);
+    const std::string without = out_;
+    EXPECT_EQ(err_, "");
+    fs::remove_all(cache);
+    EXPECT_EQ(CheckWithJob(cached), kExitFail);
+    EXPECT_EQ(out_, without);
+    EXPECT_THAT(err_, StartsWith(cache + ": cache: "));
+    EXPECT_EQ(CheckWithJob(cached), kExitFail);
+    EXPECT_EQ(out_, without);
+    const std::string all = err_.substr(err_.find(" of ") + 4);
+    EXPECT_EQ(err_, cache + ": cache: " + all.substr(0, all.find(' ')) + " of " + all);
+  }
+  EXPECT_FALSE(fs::is_empty(cache));
+  EXPECT_EQ(CheckWithJob({good, "--interpret-only", "--cache", cache}), kExitUnproven);
+  EXPECT_EQ(err_, "") << "nothing to be known";
+}
+
+// The same program with lines above it: nothing is computed, and all is told of the new lines.
+TEST_F(CheckCommandTest, ACacheKnowsAProgramThatHasMovedDown) {
+  const std::string above = "(a)\n(b)\n";
+  const std::string body = "G01 Z-3. F500.";
+  const std::string before = Write("a.nc", Program(body));
+  const std::string after = Write("b.nc", "%\n" + above + Program(body).substr(2));
+  EXPECT_EQ(CheckWithJob({before, "--cache", Path("c")}), kExitFail);
+  EXPECT_THAT(out_, HasSubstr("a.nc:7:1: error: "));
+  EXPECT_EQ(CheckWithJob({after, "--cache", Path("c")}), kExitFail);
+  const std::string all = err_.substr(err_.find(" of ") + 4);
+  EXPECT_THAT(err_, HasSubstr("cache: " + all.substr(0, all.find(' ')) + " of "));
+  EXPECT_THAT(out_, HasSubstr("b.nc:9:1: error: "));
+  const std::string warm = out_;
+  EXPECT_EQ(CheckWithJob({after}), kExitFail);
+  EXPECT_EQ(out_, warm);
+}
+
+TEST_F(CheckCommandTest, ACacheThatCannotBeMadeIsBadInput) {
+  const std::string program = Write("a.nc", Program(""));
+  EXPECT_EQ(CheckWithJob({program, "--cache", program}), kExitBadInput);
+  EXPECT_EQ(out_, "");
+  EXPECT_THAT(err_, StartsWith(program + ": error: cannot be a cache: "));
+}
+
+TEST_F(CheckCommandTest, ACacheThatCannotBeWrittenIsSaidOnce) {
+  const std::string program = Write("a.nc", Program(""));
+  EXPECT_EQ(CheckWithJob({program, program, "--cache", "/proc"}), kExitPass);
+  EXPECT_THAT(err_, HasSubstr("/proc: warning: the cache cannot be written: "));
+  EXPECT_EQ(std::count(err_.begin(), err_.end(), '\n'), 2);
+}
+
 TEST_F(CheckCommandTest, ALineOfAMegabyteIsReportedInShort) {
   const std::string body = "G01 F500. (" + std::string(1'000'000, 'x') + ") Q[1 Z150.";
   EXPECT_EQ(CheckWithJob({Write("a.nc", Program(body))}), kExitFail);

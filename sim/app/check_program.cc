@@ -53,8 +53,8 @@ class SourceLines {
 class ProgramCheck {
  public:
   ProgramCheck(const CheckOptions& options, const std::string& program,
-               const ProgressReport& progress)
-      : options_(options), name_(program), progress_(progress) {}
+               const ProgressReport& progress, const collision::OutcomeCache* cache)
+      : options_(options), name_(program), progress_(progress), cache_(cache) {}
 
   ProgramOutcome Run() {
     outcome_.exit_code = kExitBadInput;
@@ -179,7 +179,7 @@ class ProgramCheck {
 
   void Simulate() {
     if (!options_.interpret_only) {
-      checker_.emplace(*machine_, scene_, tools_, job_->check);
+      checker_.emplace(*machine_, scene_, tools_, job_->check, cache_);
     }
     Pipeline::Parts parts;
     parts.machine = &*machine_;
@@ -222,6 +222,8 @@ class ProgramCheck {
       log_.Add(std::move(bodies.findings));
       result.clearances = std::move(bodies.clearances);
       result.cuts = std::move(bodies.cuts);
+      outcome_.outcomes = bodies.outcomes;
+      outcome_.recalled = bodies.recalled;
     } else {
       result.not_checked.emplace_back("collision");
       log_.Add(MakeFinding(Rule::kUncertified, {},
@@ -287,6 +289,7 @@ class ProgramCheck {
   const CheckOptions& options_;
   const std::string name_;
   const ProgressReport& progress_;
+  const collision::OutcomeCache* cache_;
   ProgramOutcome outcome_;
   Diagnostics diagnostics_;
   std::shared_ptr<const nc::Program> program_;
@@ -308,8 +311,8 @@ class ProgramCheck {
 }  // namespace
 
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
-                            const ProgressReport& progress) {
-  return ProgramCheck(options, program, progress).Run();
+                            const ProgressReport& progress, const collision::OutcomeCache* cache) {
+  return ProgramCheck(options, program, progress, cache).Run();
 }
 
 }  // namespace ncsim::app

@@ -2,10 +2,15 @@
 // One program, from text to verdict.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "sim/app/options.h"
 #include "sim/app/progress.h"
+
+namespace ncsim::collision {
+class OutcomeCache;
+}
 
 namespace ncsim::app {
 
@@ -14,10 +19,12 @@ struct ProgramOutcome {
   std::string report;    ///< In the asked format; "" where there is none.
   std::string summary;   ///< "part.nc: pass, ..."; "" where there is no report.
   std::string messages;  ///< Trouble with the inputs, for standard error.
+  /// As in collision::CollisionResult.
+  std::uint64_t outcomes = 0, recalled = 0;
 };
 
-/// Checks one program. `progress`, if not empty, is told how far it is.
+/// Checks one program. `progress`, if not empty, is told how far it is. `cache` may be null.
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
-                            const ProgressReport& progress);
+                            const ProgressReport& progress, const collision::OutcomeCache* cache);
 
 }  // namespace ncsim::app

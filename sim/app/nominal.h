@@ -11,7 +11,7 @@
 #include "sim/machine/machine.h"
 #include "sim/machine/scene.h"
 #include "sim/machine/tool.h"
-#include "sim/motion/motion.h"
+#include "sim/motion/window.h"
 
 namespace ncsim::app {
 

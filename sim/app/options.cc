@@ -36,7 +36,7 @@ constexpr const char* kExamples =
 
 /// Of the contract, but of later versions: refused by name, never accepted and ignored.
 const std::vector<std::string> kLaterCommands = {"post", "compare", "nightly"};
-const std::vector<std::string> kLaterOptions = {"--report", "--gltf", "--cache"};
+const std::vector<std::string> kLaterOptions = {"--report", "--gltf"};
 const std::vector<std::string> kLaterFormats = {"sarif", "junit", "github"};
 
 bool Contains(const std::vector<std::string>& list, const std::string& item) {
@@ -129,6 +129,11 @@ class CommandLine {
     check_
         ->add_option("--trace", o.trace, "write a row at the end of each motion (one program only)")
         ->type_name("T.csv");
+    check_
+        ->add_option("--cache", o.cache,
+                     "keep what was computed in this folder, and compute only what has changed; "
+                     "the report is the same")
+        ->type_name("DIR");
     check_->add_flag("--interpret-only", o.interpret_only,
                      "leave out the collision checks; the verdict is unproven at best");
     for (const std::string& name : kLaterOptions) {
@@ -181,6 +186,7 @@ class CommandLine {
     }
     if (check_->count("--jobs") > 0 && o.jobs < 1) return "--jobs takes a number from 1";
     if (o.programs.empty()) return "check needs a program: ncsim check part.nc --model umc750.urdf";
+    if (check_->count("--cache") > 0 && o.cache.empty()) return "--cache takes a folder";
     if (!o.trace.empty() && o.programs.size() > 1) return "--trace takes one program";
     return "";
   }

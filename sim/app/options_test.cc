@@ -91,13 +91,12 @@ TEST_F(OptionsTest, LaterCommandsAndOptionsAreRefusedByName) {
             "ncsim: '--report' is not in this version of ncsim\n");
   EXPECT_EQ(Error({"check", "a.nc", "--gltf", "g"}),
             "ncsim: '--gltf' is not in this version of ncsim\n");
-  EXPECT_EQ(Error({"check", "a.nc", "--cache", "d"}),
-            "ncsim: '--cache' is not in this version of ncsim\n");
   EXPECT_EQ(Error({"check", "a.nc", "--format", "sarif"}),
             "ncsim: --format sarif is not in this version of ncsim; there are text and json\n");
 }
 
 TEST_F(OptionsTest, BadUsage) {
+  EXPECT_EQ(Error({"check", "a.nc", "--cache", ""}), "ncsim: --cache takes a folder\n");
   EXPECT_THAT(Error({}), HasSubstr("which command?"));
   EXPECT_THAT(Error({"check"}), HasSubstr("check needs a program"));
   EXPECT_THAT(Error({"inspect"}), HasSubstr("inspect needs a model"));

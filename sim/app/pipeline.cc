@@ -7,9 +7,7 @@
 namespace ncsim::app {
 
 Pipeline::Pipeline(Parts parts, std::function<void(const motion::Window&)> on_window)
-    : parts_(parts), on_window_(std::move(on_window)), checks_(checks::AllChecks(*parts.machine)) {
-  window_.motions.reserve(motion::kWindowSize);
-}
+    : parts_(parts), on_window_(std::move(on_window)), checks_(checks::AllChecks(*parts.machine)) {}
 
 double Pipeline::ToolLength(int number) const {
   const machine::Tool* tool = parts_.tools->Find(number);
@@ -19,9 +17,7 @@ double Pipeline::ToolLength(int number) const {
 void Pipeline::OnMotion(const motion::Motion& motion) {
   ++motions_;
   const int tool = motion.facts.tool;
-  const bool full = window_.motions.size() >= motion::kWindowSize;
-  const bool other_tool = !window_.motions.empty() && window_.motions.back().facts.tool != tool;
-  if (full || other_tool) Flush();
+  OnWindow(windows_.Add(motion));
   if (tool > 0 && std::find(used_tools_.begin(), used_tools_.end(), tool) == used_tools_.end()) {
     used_tools_.push_back(tool);
   }
@@ -32,19 +28,16 @@ void Pipeline::OnMotion(const motion::Motion& motion) {
   for (const std::unique_ptr<checks::Check>& check : checks_) check->OnMotion(motion, &found_);
   if (!found_.empty()) parts_.log->Add(std::exchange(found_, {}));
   tool_changes_.OnMotion(motion);
-  window_.motions.push_back(motion);
 }
 
-void Pipeline::Flush() {
-  if (window_.motions.empty()) return;
-  if (on_window_) on_window_(window_);
-  if (parts_.collision != nullptr) parts_.collision->Check(std::exchange(window_, {}));
-  window_.motions.clear();
-  window_.motions.reserve(motion::kWindowSize);
+void Pipeline::OnWindow(motion::Window window) {
+  if (window.motions.empty()) return;
+  if (on_window_) on_window_(window);
+  if (parts_.collision != nullptr) parts_.collision->Check(std::move(window));
 }
 
 void Pipeline::Finish() {
-  Flush();
+  OnWindow(windows_.Take());
   for (const std::unique_ptr<checks::Check>& check : checks_) check->Finish(&found_);
   parts_.log->Add(std::exchange(found_, {}));
 }

@@ -13,6 +13,7 @@
 #include "sim/collision/checker.h"
 #include "sim/control/controller.h"
 #include "sim/machine/tool.h"
+#include "sim/motion/window.h"
 #include "sim/report/result.h"
 
 namespace ncsim::app {
@@ -43,14 +44,14 @@ class Pipeline : public control::RunSink {
   const ToolChangePoses& tool_changes() const { return tool_changes_; }
 
  private:
-  void Flush();
+  void OnWindow(motion::Window window);
   double ToolLength(int number) const;
 
   Parts parts_;
   std::function<void(const motion::Window&)> on_window_;
   std::vector<std::unique_ptr<checks::Check>> checks_;
   std::vector<Finding> found_;
-  motion::Window window_;
+  motion::WindowCutter windows_;
   std::uint64_t motions_ = 0;
   std::vector<int> used_tools_;
   ToolChangePoses tool_changes_;

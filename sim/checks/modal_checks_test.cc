@@ -42,6 +42,16 @@ TEST_F(ModalChecksTest, SingularityIsFoundInTheMiddleOfABlock) {
   EXPECT_THAT(RunCheck(Singularity(machine_), {Tcp(5.0, 2.0, 0.0, 20.0, 120.0)}), IsEmpty());
 }
 
+TEST_F(ModalChecksTest, SingularityIsFoundWhereAGreatCircleDips) {
+  // B is 20 at both ends; in the middle atan2(sin 20 cos(C / 2), cos 20): 0.87 and 1.09 deg.
+  const Eigen::Vector3d a(0.0, 0.0, 0.0), b(5.0, 0.0, 0.0);
+  const auto feed = [&](double c_deg) {
+    return VectorFeed(machine_, 5, a, b, 20.0, 0.0, 20.0, c_deg);
+  };
+  EXPECT_THAT(RunCheck(Singularity(machine_), {feed(175.2)}), SizeIs(1));
+  EXPECT_THAT(RunCheck(Singularity(machine_), {feed(174.0)}), IsEmpty());
+}
+
 TEST_F(ModalChecksTest, SingularityOnlyInFeedsUnderTcp) {
   motion::Motion motion = Tcp(5.0, 0.0, 0.0, 0.0, 100.0);
   motion.facts.tcp = false;

@@ -77,10 +77,11 @@ class SingularityCheck : public Check {
       const double at_0 = at(0.0), at_90 = at(kPi / 2.0), at_180 = at(kPi);
       const double a = (at_0 + at_180) / 2.0;
       const double peak = std::atan2(at_90 - a, at_0 - a);
-      const double t0 = motion.q0()[other->joint], t1 = motion.q1()[other->joint];
-      nearest = std::max(nearest, std::abs(at(t1)));
-      for (double t = peak + kPi * std::ceil((std::min(t0, t1) - peak) / kPi);
-           t <= std::max(t0, t1); t += kPi) {
+      // A great circle leads the other axis beyond what it is at the ends.
+      const motion::JointBox box = motion::Box(motion, motion::Whole(motion));
+      const double t0 = box.lower[other->joint], t1 = box.upper[other->joint];
+      nearest = std::max({nearest, std::abs(at(t0)), std::abs(at(t1))});
+      for (double t = peak + kPi * std::ceil((t0 - peak) / kPi); t <= t1; t += kPi) {
         nearest = std::max(nearest, std::abs(at(t)));
       }
     }

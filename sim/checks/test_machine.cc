@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/checks/test_machine.h"
 
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
 #include "sim/base/units.h"
 
 namespace ncsim::checks {
@@ -106,6 +110,20 @@ motion::Motion TcpFeed(const machine::Machine& machine, int line, const Eigen::V
   motion::Motion motion = Feed(line, curve.q0, curve.q1);
   motion.path = curve;
   motion.facts.tcp = true;
+  return motion;
+}
+
+motion::Motion VectorFeed(const machine::Machine& machine, int line, const Eigen::Vector3d& p0_B,
+                          const Eigen::Vector3d& p1_B, double b0_deg, double c0_deg, double b1_deg,
+                          double c1_deg) {
+  motion::Motion motion = TcpFeed(machine, line, p0_B, p1_B, b0_deg, c0_deg, b1_deg, c1_deg);
+  auto& curve = std::get<motion::TcpCurve>(motion.path);
+  auto circle = std::make_shared<kinematics::GreatCircle>();
+  const auto fault =
+      kinematics::GreatCircle::Make(curve.frame->control, {Radians(b0_deg), Radians(c0_deg)},
+                                    {Radians(b1_deg), Radians(c1_deg)}, circle.get());
+  if (fault != kinematics::GreatCircle::Fault::kNone) throw std::invalid_argument("no circle");
+  curve.great_circle = std::move(circle);
   return motion;
 }
 

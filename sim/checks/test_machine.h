@@ -26,6 +26,11 @@ motion::Motion TcpFeed(const machine::Machine& machine, int line, const Eigen::V
                        const Eigen::Vector3d& p1_B, double b0_deg, double c0_deg, double b1_deg,
                        double c1_deg);
 
+/// The same with the tool axis on the great circle, which must lead to c1_deg.
+motion::Motion VectorFeed(const machine::Machine& machine, int line, const Eigen::Vector3d& p0_B,
+                          const Eigen::Vector3d& p1_B, double b0_deg, double c0_deg, double b1_deg,
+                          double c1_deg);
+
 /// What a check says to motions, from the first to Finish.
 std::vector<Finding> RunCheck(std::unique_ptr<Check> check,
                               const std::vector<motion::Motion>& motions);

@@ -114,6 +114,17 @@ TEST_F(TravelLimitTest, TcpBulgeBetweenEndsThatAreInside) {
   EXPECT_NEAR(AxisOf(findings[0], 'X'), 0.0, 1e-5);
 }
 
+// From B115 C0 to B115 C100 the tool axis goes along a great circle by B = atan2(sin 115 cos 50,
+// cos 115) = 125.959; B ends at 120.
+TEST_F(TravelLimitTest, GreatCircleLeadsARotaryAxisBeyondItsLimit) {
+  const Eigen::Vector3d p_B(0.0, 0.0, 0.0);
+  const auto findings = Check({VectorFeed(machine_, 6, p_B, p_B, 115.0, 0.0, 115.0, 100.0)});
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].message, StartsWith("axis B reaches 125.959 deg, limit 120 deg"));
+  EXPECT_NEAR(AxisOf(findings[0], 'B'), 120.0, 1e-5);
+  EXPECT_THAT(Check({VectorFeed(machine_, 6, p_B, p_B, 115.0, 0.0, 115.0, 40.0)}), IsEmpty());
+}
+
 TEST_F(TravelLimitTest, TcpBulgeThatJustTouchesTheLimitIsFine) {
   const Eigen::Vector3d p_B(381.0, 0.0, 0.0);
   EXPECT_THAT(Check({TcpFeed(machine_, 6, p_B, p_B, -20.0, 0.0, 20.0, 0.0)}), IsEmpty());

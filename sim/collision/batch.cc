@@ -25,21 +25,33 @@ struct Step {
 /// Steps that must be done one after the other.
 using Lane = std::vector<Step>;
 
+// From what is known, or by a check.
+void Perform(const Step& step, PairCarry* carry) {
+  BatchRun& run = *step.run;
+  const WatchedPair& pair = *step.pair;
+  const auto check = [&] {
+    *step.outcome = PairCheck(pair.setup, *run.travel, run.number, pair.blank, carry).Run();
+  };
+  if (run.known == nullptr) return check();
+  const auto place = static_cast<std::size_t>(step.outcome - run.outcomes.data());
+  const Digest key = run.known->KeyOf(pair.content, *carry, pair.blank);
+  if (run.known->Recall(place, key, step.outcome, carry, pair.blank)) return;
+  check();
+  run.known->Keep(place, key, *step.outcome, *carry, pair.blank);
+}
+
 void Take(const Step& step) {
   WatchedPair& pair = *step.pair;
-  const PairSetup& setup = pair.setup;
-  if (IsSequential(setup.pair.role)) {
-    PairCarry& carry = pair.carry;
-    if (step.run->tool_changed) {
-      carry.warned = false;
-      if (setup.pair.tool) carry.reference.Reset();
-    }
-    *step.outcome = PairCheck(setup, *step.run->travel, step.run->number, pair.blank, &carry).Run();
-    return;
+  PairCarry carry = pair.carry;  // others may be at the same pair in another run
+  carry.least = RoundedLeast(carry.least);
+  if (!IsSequential(pair.setup.pair.role)) return Perform(step, &carry);
+  if (step.run->tool_changed) {
+    carry.warned = false;
+    if (pair.setup.pair.tool) carry.reference.Reset();
   }
-  // Others may be at the same pair in another run.
-  PairCarry carry = pair.carry;
-  *step.outcome = PairCheck(setup, *step.run->travel, step.run->number, pair.blank, &carry).Run();
+  Perform(step, &carry);
+  carry.least = std::min(pair.carry.least, step.outcome->least.upper);
+  pair.carry = carry;
 }
 
 /// Pairs that cut go through the runs in their order, all that share a blank together; every other
@@ -75,7 +87,7 @@ void ForEach(std::size_t size, const Function& function) {
   oneapi::tbb::parallel_for(std::size_t{0}, size, function, oneapi::tbb::simple_partitioner());
 }
 
-void CheckBatch(const machine::Machine& machine, Batch* batch) {
+void CheckBatch(const machine::Machine& machine, const OutcomeCache* cache, Batch* batch) {
   const kinematics::FiveAxis* five_axis = machine.five_axis ? &*machine.five_axis : nullptr;
   ForEach(batch->size(), [&](std::size_t i) {
     BatchRun& run = (*batch)[i];
@@ -84,11 +96,14 @@ void CheckBatch(const machine::Machine& machine, Batch* batch) {
     std::size_t pairs = 0;
     for (const WatchedPairs* group : run.groups) pairs += group->size();
     run.outcomes.resize(pairs);
+    if (cache != nullptr) run.known = cache->Open(*run.travel, run.number, pairs);
   });
   const std::vector<Lane> lanes = Lanes(batch);
   ForEach(lanes.size(), [&](std::size_t i) {
     for (const Step& step : lanes[i]) Take(step);
   });
+  if (cache == nullptr) return;
+  for (BatchRun& run : *batch) run.known->Save();
 }
 
 }  // namespace
@@ -97,6 +112,15 @@ bool WatchedPair::has_clearance() const {
   if (setup.pair.role != PairRole::kNeverTouch || report.uncertified()) return false;
   if (report.touched() && setup.pair.tool == nullptr) return false;  // two meshes have no depth
   return std::isfinite(report.least().lower) && std::isfinite(report.least().upper);
+}
+
+// To the next greater number of five binary digits.
+double RoundedLeast(double least) {
+  if (!std::isfinite(least)) return least;
+  constexpr double kDigits = 32.0;
+  int exponent = 0;
+  const double fraction = std::frexp(least, &exponent);
+  return std::ldexp(std::ceil(kDigits * fraction) / kDigits, exponent);
 }
 
 struct BatchRunner::Group {
@@ -113,12 +137,12 @@ BatchRunner::~BatchRunner() {
   }
 }
 
-void BatchRunner::Start(const machine::Machine& machine, Batch* batch) {
-  if (OnlyOneThread()) return CheckBatch(machine, batch);
+void BatchRunner::Start(const machine::Machine& machine, const OutcomeCache* cache, Batch* batch) {
+  if (OnlyOneThread()) return CheckBatch(machine, cache, batch);
   // Isolated: a thread that waits for a piece of this batch takes no other program's work
   // meanwhile.
-  group_->tasks.run([&machine, batch] {
-    oneapi::tbb::this_task_arena::isolate([&] { CheckBatch(machine, batch); });
+  group_->tasks.run([&machine, cache, batch] {
+    oneapi::tbb::this_task_arena::isolate([&] { CheckBatch(machine, cache, batch); });
   });
 }
 

@@ -8,9 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "sim/collision/outcome_cache.h"
 #include "sim/collision/pair_check.h"
 #include "sim/collision/pair_report.h"
-#include "sim/motion/motion.h"
+#include "sim/motion/window.h"
 
 namespace ncsim::collision {
 
@@ -22,12 +23,13 @@ inline constexpr std::size_t kMostWindows = 8;
 struct WatchedPair {
   WatchedPair(const machine::Machine& machine, const machine::CheckSettings& settings, Pair pair,
               BlankState* blank_state)
-      : setup(machine, settings, std::move(pair)), blank(blank_state) {}
+      : setup(machine, settings, std::move(pair)), content(ContentOf(setup)), blank(blank_state) {}
 
   /// report.least() is a clearance that holds over the whole program.
   bool has_clearance() const;
 
   PairSetup setup;
+  Digest content;     ///< Of the setup.
   BlankState* blank;  ///< Of the pair's blank, or null.
   PairCarry carry;
   PairReport report;
@@ -45,6 +47,7 @@ struct BatchRun {
   double tool_length = 0.0;
   std::vector<WatchedPairs*> groups;  ///< In the order in which pairs are told of.
   std::unique_ptr<motion::Travel> travel;
+  std::unique_ptr<KnownRun> known;    ///< Null without a cache.
   std::vector<PairOutcome> outcomes;  ///< For each pair of each group.
 };
 using Batch = std::vector<BatchRun>;
@@ -58,8 +61,8 @@ class BatchRunner {
   BatchRunner& operator=(const BatchRunner&) = delete;
 
   /// Fills in what the batch's runs lack. `batch`, its pairs and the machine are left alone until
-  /// Wait().
-  void Start(const machine::Machine& machine, Batch* batch);
+  /// Wait(). `cache` may be null.
+  void Start(const machine::Machine& machine, const OutcomeCache* cache, Batch* batch);
   /// Returns when it is done; rethrows what it threw.
   void Wait();
 
@@ -67,6 +70,10 @@ class BatchRunner {
   struct Group;
   std::unique_ptr<Group> group_;
 };
+
+/// A least clearance as it is handed to a run: up to 6 % more, so that it, and what is kept of the
+/// run, is the same one as long as clearances elsewhere change but little.
+double RoundedLeast(double least);
 
 /// Makes the outcomes of a batch that is done part of its pairs' reports, in program order.
 void Tell(Batch* batch, NumberedFindings* findings);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/collision/content.h"
 #include "sim/collision/tessellate.h"
 
 namespace ncsim::collision {
@@ -65,7 +66,8 @@ MeshBody::MeshBody(const machine::SceneBody& body)
       extent(ExtentOf(body)),
       tree(Usable(body)),
       boxes(Usable(body)),
-      fcl(Usable(body)) {}
+      fcl(Usable(body)),
+      content(ContentOf(body)) {}
 
 const machine::Profile& ProfileOf(const machine::Tool& tool, machine::BodyKind kind) {
   if (kind == machine::BodyKind::kShank) return tool.shank;
@@ -86,6 +88,7 @@ ToolBody::ToolBody(const machine::Tool& tool_data, machine::BodyKind body_kind, 
   double cutter = 0.5 * tool_data.diameter;
   if (!tool_data.flutes.empty()) cutter = ProfileShape(tool_data.flutes).r_max();
   thin = kind == machine::BodyKind::kShank && shape.r_max() <= cutter + 1e-6;
+  content = ContentOf(*this, ProfileOf(tool_data, body_kind));
 }
 
 }  // namespace ncsim::collision

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kinematics/relative_bound.h"
+#include "sim/base/digest.h"
 #include "sim/collision/box_tree.h"
 #include "sim/collision/fcl_backend.h"
 #include "sim/collision/profile_shape.h"
@@ -27,6 +28,7 @@ struct MeshBody {
   TriangleTree tree;
   BoxTree boxes;
   FclMesh fcl;
+  Digest content;  ///< Of all that it was made of.
 };
 
 /// Flutes, shank or holder: a solid of revolution in frame S of the spindle link.
@@ -42,6 +44,7 @@ struct ToolBody {
   FclMesh fcl;  ///< Circumscribed.
   /// A shank no wider than the cutter.
   bool thin = false;
+  Digest content;  ///< Of all that it was made of.
 };
 
 /// The profile of a part of a tool.

@@ -28,8 +28,8 @@ machine::MarginBody AsMarginBody(const Body& body) {
 
 struct CollisionChecker::State {
   State(const machine::Machine& machine_data, const machine::ToolTable& tool_table,
-        const machine::CheckSettings& check)
-      : machine(&machine_data), tools(&tool_table), settings(check) {}
+        const machine::CheckSettings& check, const OutcomeCache* known)
+      : machine(&machine_data), tools(&tool_table), settings(check), cache(known) {}
 
   bool Trusted(const Pair& pair);
   BlankState* BlankOf(const Pair& pair);
@@ -44,6 +44,7 @@ struct CollisionChecker::State {
   const machine::Machine* machine;
   const machine::ToolTable* tools;
   machine::CheckSettings settings;
+  const OutcomeCache* cache;
   MeshBodies bodies;
   std::map<const MeshBody*, BlankState> blanks;
   NumberedFindings findings;
@@ -55,6 +56,7 @@ struct CollisionChecker::State {
   std::set<const MeshBody*> broken;
   std::vector<const MeshBody*> newly_broken;  // not reported yet
   std::uint64_t number = 0;                   // of motions so far
+  std::uint64_t outcomes = 0, recalled = 0;
   Batch filling, running;
   std::size_t windows = 0;  // in `filling`
   std::size_t batch_size = 1;
@@ -168,7 +170,7 @@ void CollisionChecker::State::Turn() {
   running = std::exchange(filling, {});
   windows = 0;
   batch_size = std::min(2 * batch_size, kMostWindows);
-  runner.Start(*machine, &running);
+  runner.Start(*machine, cache, &running);
 }
 
 void CollisionChecker::State::Complete() {
@@ -181,13 +183,18 @@ void CollisionChecker::State::Complete() {
     throw;
   }
   done.swap(running);
+  for (const BatchRun& run : done) {
+    outcomes += run.outcomes.size();
+    if (run.known != nullptr) recalled += run.known->recalled();
+  }
   Tell(&done, &findings);
 }
 
 CollisionChecker::CollisionChecker(const machine::Machine& machine, const machine::Scene& scene,
                                    const machine::ToolTable& tools,
-                                   const machine::CheckSettings& settings)
-    : state_(std::make_unique<State>(machine, tools, settings)) {
+                                   const machine::CheckSettings& settings,
+                                   const OutcomeCache* cache)
+    : state_(std::make_unique<State>(machine, tools, settings, cache)) {
   for (const machine::SceneBody& body : scene.bodies) {
     state_->bodies.push_back(std::make_shared<const MeshBody>(body));
   }
@@ -204,6 +211,8 @@ CollisionResult CollisionChecker::Finish() {
   state_->Turn();
   state_->Complete();
   CollisionResult result;
+  result.outcomes = state_->outcomes;
+  result.recalled = state_->recalled;
   std::vector<WatchedPairs*> all{&state_->scene};
   for (auto& [tool, pairs] : state_->by_tool) all.push_back(&pairs);
   for (WatchedPairs* pairs : all) {

@@ -13,7 +13,7 @@
 #include "sim/machine/machine.h"
 #include "sim/machine/scene.h"
 #include "sim/machine/tool.h"
-#include "sim/motion/motion.h"
+#include "sim/motion/window.h"
 
 namespace ncsim::collision {
 
@@ -33,11 +33,15 @@ struct DeepestCut {
   SourcePosition where;
 };
 
+class OutcomeCache;
+
 struct CollisionResult {
   std::vector<Finding> findings;  ///< In program order; one for a run of blocks in contact.
   std::vector<PairClearance> clearances;
   std::vector<DeepestCut> cuts;
   std::uint64_t queries = 0;  ///< Poses at which a clearance was computed, over all pairs.
+  /// Pairs over runs of motions, and those of them that the cache knew: nothing else depends on it.
+  std::uint64_t outcomes = 0, recalled = 0;
 };
 
 /// Checks every pair of bodies that can move against each other, over the whole of every motion: an
@@ -45,8 +49,10 @@ struct CollisionResult {
 /// else it is split; a hit is a pose.
 class CollisionChecker {
  public:
+  /// All outlive it. `cache` may be null.
   CollisionChecker(const machine::Machine& machine, const machine::Scene& scene,
-                   const machine::ToolTable& tools, const machine::CheckSettings& settings);
+                   const machine::ToolTable& tools, const machine::CheckSettings& settings,
+                   const OutcomeCache* cache = nullptr);
   ~CollisionChecker();
 
   /// Windows in program order. Returns before they are checked, on as many threads as oneTBB's

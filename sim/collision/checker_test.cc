@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "sim/collision/test_rig.h"
 
@@ -121,6 +122,33 @@ TEST(CheckerTest, NearMissIsOneFindingARun) {
   EXPECT_THAT(rig.Run().findings, IsEmpty());
   rig.check().clearance = 0.0;
   EXPECT_THAT(rig.Run().findings, IsEmpty());
+}
+
+// Nearest at the start of a motion, where nothing was known before: of the program, or of a window.
+TEST(CheckerTest, NearMissWhereAMotionBegins) {
+  for (const std::size_t window : {std::size_t{1}, std::size_t{2}, motion::kWindowSize}) {
+    Rig rig;
+    rig.check().clearance = 2.0;
+    rig.AddBox("wall", BodyKind::kFixture, {-50, -50, -50}, {50, 50, 0});
+    rig.Start(0, 0, 1);
+    rig.Rapid(0, 0, 80);
+    const std::vector<Finding> near = Of(rig.Run(window), Rule::kNearMiss);
+    ASSERT_THAT(near, SizeIs(1)) << window;
+    EXPECT_NEAR(*near[0].clearance_mm, 1.0, 0.02);
+  }
+}
+
+// An axis value that is no number proves nothing.
+TEST(CheckerTest, WhatIsNoNumberIsNotClear) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double z : {std::nan(""), kInfinity, -kInfinity}) {
+    Rig rig;
+    rig.AddBox("wall", BodyKind::kFixture, {-50, -50, -50}, {50, 50, 0});
+    rig.Start(0, 0, 10);
+    rig.Rapid(0, 0, 12);
+    rig.Rapid(0, 0, z);
+    EXPECT_FALSE(rig.Run().findings.empty()) << z;
+  }
 }
 
 // The pin (flutes and shank) passes two posts, `gap` from each.

@@ -20,31 +20,32 @@ void WatchClearance(const motion::Motion& motion, const machine::CheckSettings& 
 }  // namespace
 
 void RapidReference::OnFeed(double depth) {
-  feed_depth_ = after_feed_ ? std::max(feed_depth_, depth) : depth;
-  after_feed_ = true;
+  memory_.feed_depth = memory_.after_feed ? std::max(memory_.feed_depth, depth) : depth;
+  memory_.after_feed = true;
 }
 
 double RapidReference::OnRapid(int cycle, double start_depth) {
-  if (after_feed_) {
-    depth_ = std::max(feed_depth_, start_depth);
-    if (cycle != cycle_) cycle_depth_ = 0.0;
-    cycle_ = cycle;
-    if (cycle > 0) cycle_depth_ = std::max(cycle_depth_, depth_);
-    after_feed_ = false;
-    feed_depth_ = 0.0;
+  if (memory_.after_feed) {
+    memory_.depth = std::max(memory_.feed_depth, start_depth);
+    if (cycle != memory_.cycle) memory_.cycle_depth = 0.0;
+    memory_.cycle = cycle;
+    if (cycle > 0) memory_.cycle_depth = std::max(memory_.cycle_depth, memory_.depth);
+    memory_.after_feed = false;
+    memory_.feed_depth = 0.0;
   }
-  if (start_depth <= 0.0) depth_ = 0.0;
+  if (start_depth <= 0.0) memory_.depth = 0.0;
   return Kept(cycle);
 }
 
 double RapidReference::OnFeedsBefore(int cycle, double depth) {
-  depth_ = std::max(depth_, depth);
-  if (cycle > 0 && cycle == cycle_) cycle_depth_ = std::max(cycle_depth_, depth);
+  memory_.depth = std::max(memory_.depth, depth);
+  if (cycle > 0 && cycle == memory_.cycle)
+    memory_.cycle_depth = std::max(memory_.cycle_depth, depth);
   return Kept(cycle);
 }
 
 double RapidReference::Kept(int cycle) const {
-  return std::max(depth_, cycle > 0 && cycle == cycle_ ? cycle_depth_ : 0.0);
+  return std::max(memory_.depth, cycle > 0 && cycle == memory_.cycle ? memory_.cycle_depth : 0.0);
 }
 
 bool Uncut(const BlankState& blank, std::uint64_t number, double s) {

@@ -23,6 +23,19 @@ struct BlankState {
 /// mm, >= 0.
 class RapidReference {
  public:
+  /// All that it remembers.
+  struct Memory {
+    bool after_feed = false;
+    double feed_depth = 0.0;
+    double depth = 0.0;
+    int cycle = 0;
+    double cycle_depth = 0.0;
+  };
+
+  RapidReference() = default;
+  explicit RapidReference(const Memory& memory) : memory_(memory) {}
+  const Memory& memory() const { return memory_; }
+
   /// After each feed: the deepest that was seen on it.
   void OnFeed(double depth);
   /// Before each rapid: the depth at its start. Returns the depth that it may keep.
@@ -31,19 +44,15 @@ class RapidReference {
   /// the rapid may keep.
   double OnFeedsBefore(int cycle, double depth);
   /// Has the tool been in the part at the start of every rapid since the last feed?
-  bool inside() const { return depth_ > 0.0; }
+  bool inside() const { return memory_.depth > 0.0; }
   /// True when OnRapid's answer depends on the depth at the start of the rapid.
-  bool wants_start() const { return after_feed_ || depth_ > 0.0; }
+  bool wants_start() const { return memory_.after_feed || memory_.depth > 0.0; }
   void Reset() { *this = RapidReference(); }
 
  private:
   double Kept(int cycle) const;
 
-  bool after_feed_ = false;
-  double feed_depth_ = 0.0;
-  double depth_ = 0.0;
-  int cycle_ = 0;
-  double cycle_depth_ = 0.0;
+  Memory memory_;
 };
 
 struct Judgement {

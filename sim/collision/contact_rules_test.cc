@@ -74,6 +74,45 @@ TEST(RapidContactTest, BackToWhereThePlungeWas) {
   }
 }
 
+// Feeds that are less deep than the deepest of the program: what a rapid may keep is worked out
+// when it matters, and does not depend on where the windows are cut.
+TEST(RapidContactTest, BackToWhereAShallowerFeedWas) {
+  for (const std::size_t window : {std::size_t{1}, motion::kWindowSize}) {
+    for (const bool in_two : {false, true}) {
+      Rig rig = PartRig();
+      rig.Feed(0, 0, -0.24);
+      rig.Rapid(0, 0, 0.02);
+      if (in_two) rig.Feed(0, 0, -0.1);
+      rig.Feed(0, 0, -0.2);
+      rig.Feed(0, 0, -0.05);
+      rig.Rapid(0, 0, -0.25);
+      const CollisionResult result = rig.Run(window);
+      EXPECT_THAT(result.findings, IsEmpty()) << window << " " << in_two << Words(result);
+    }
+  }
+}
+
+// A rapid back into a deep hole may take the whole tool into the part; what feeds do there is a
+// gouge still.
+TEST(GougeTest, FeedsOfAToolThatIsWhollyInside) {
+  for (const std::size_t window : {std::size_t{1}, motion::kWindowSize}) {
+    Rig rig;
+    rig.AddBox("part", BodyKind::kPart, {-60, -30, -200}, {0, 30, 0});
+    rig.AddTool(7, CylinderProfile(0, 30, 5), {}, {});
+    rig.facts().tool = 7;
+    rig.Start(-30, 0, 10);
+    rig.facts().cycle = 1;
+    rig.Feed(-30, 0, -60);
+    rig.Rapid(-30, 0, 10);
+    rig.Rapid(-30, 0, -59);
+    rig.Feed(-30, 0, -70);
+    rig.Feed(-30, 10, -70);
+    const std::vector<Finding> gouges = Of(rig.Run(window), Rule::kGouge);
+    ASSERT_THAT(gouges, SizeIs(2)) << window;
+    EXPECT_EQ(gouges[1].where.line, 4);
+  }
+}
+
 // Once out, the depth of the feed is no excuse.
 TEST(RapidContactTest, ReferenceEndsWhenTheToolLeavesThePart) {
   Rig rig = PartRig();

@@ -102,15 +102,16 @@ ConvexProfile ConvexProfile::Swept(double length) const {
     swept.lines_.push_back({line.normal, line.offset + std::max(0.0, line.normal.dot(way))});
   }
   for (const Round& round : rounds_) {
-    const bool before = round.from.x() < 0.0;
-    const bool beyond = round.to.x() > 0.0;
-    if (before && beyond) {
+    // From one place to the other there is a cylinder between the two halves.
+    if (round.from.x() <= 0.0 && round.to.x() >= 0.0) {
+      swept.lines_.push_back({outward, round.centre.y() + round.radius});
+    }
+    if (round.from.x() < 0.0 && round.to.x() > 0.0) {
       swept.rounds_.push_back({round.centre, round.radius, round.from, outward});
       swept.rounds_.push_back({round.centre + way, round.radius, outward, round.to});
-      swept.lines_.push_back({outward, round.centre.y() + round.radius});
     } else {
       swept.rounds_.push_back(round);
-      if (beyond) swept.rounds_.back().centre += way;
+      if (round.to.x() > 0.0) swept.rounds_.back().centre += way;
     }
   }
   return swept;

@@ -65,17 +65,23 @@ PairOutcome PairCheck::Run() {
     ++at_;
   }
   CloseRuns();
-  if (feeds_unknown()) {
+  if (cutting()) {
     const bool inside = DepthAt((*travel_)[travel_->size() - 1], 1.0) > 0.0;
     carry_->feeds = inside ? DepthOfFeeds() : 0.0;
   }
   outcome_.least = sweep_.least();
-  outcome_.least_where = sweep_.least_where();
   // What was handed in was seen elsewhere.
   if (outcome_.least.upper >= carry_->least) outcome_.least.upper = kInfinity;
   carry_->least = std::min(carry_->least, outcome_.least.upper);
+  if (outcome_.least.upper < kInfinity) outcome_.least_at = IndexOf(sweep_.least_motion());
   outcome_.queries = sweep_.queries() + (swept_ ? swept_->queries() : 0);
   return std::move(outcome_);
+}
+
+std::size_t PairCheck::IndexOf(const motion::Motion* motion) const {
+  std::size_t i = 0;
+  while (i + 1 < travel_->size() && &(*travel_)[i] != motion) ++i;
+  return i;
 }
 
 bool PairCheck::cutting() const {
@@ -117,7 +123,7 @@ std::size_t PairCheck::CrossSwept(const Watch& watch) {
     return at_;
   }
   cross_swept_.Helped();
-  if (watch.track) sweep_.Include({crossing.least, kInfinity}, motion().where);
+  if (watch.track) sweep_.Include({crossing.least, kInfinity}, motion());
   sweep_.Accept((*travel_)[crossing.end - 1], swept_->known_clearance());
   return crossing.end;
 }
@@ -134,7 +140,7 @@ bool PairCheck::ClearWhenSwept(const Watch& watch) {
     return false;
   }
   check_swept_.Helped();
-  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion().where);
+  if (watch.track) sweep_.Include({result.least.lower, kInfinity}, motion());
   sweep_.Accept(motion(), swept_->known_clearance());
   return true;
 }
@@ -147,9 +153,14 @@ void PairCheck::Passed(std::size_t end) {
     if (IsRapid(motion())) {
       carry_->reference.OnRapid(motion().facts.cycle, 0.0);
     } else {
-      carry_->reference.OnFeed(0.0);
+      AfterFeed(0.0);
     }
   }
+}
+
+void PairCheck::AfterFeed(double depth) {
+  carry_->reference.OnFeed(depth);
+  feeds_end_ = at_ + 1;
 }
 
 void PairCheck::OnMotion() {
@@ -158,10 +169,7 @@ void PairCheck::OnMotion() {
   if (!judgement.checked || carry_->warned) {
     CloseRuns();
     sweep_.Forget();
-    if (feeds_unknown()) {
-      carry_->reference.OnFeed(0.0);
-      feeds_end_ = at_ + 1;
-    }
+    if (feeds_unknown()) AfterFeed(0.0);
     return;
   }
   judgement.watch.run_least = near_.open ? near_.run.least : kInfinity;
@@ -182,7 +190,7 @@ void PairCheck::OnMotion() {
   }
   if (!IsRapid(motion())) {
     const double seen = contact_.open ? contact_.run.least : result.least.upper;
-    carry_->reference.OnFeed(std::max(0.0, -seen));
+    AfterFeed(std::max(0.0, -seen));
   }
 }
 
@@ -191,9 +199,12 @@ bool PairCheck::feeds_unknown() const {
   return pair().role == PairRole::kFlutesPart && setup_->settings.gouge == machine::GougeMode::kOff;
 }
 
+// What is known of the feeds' depth is what the sweeps came upon: enough for most rapids, but no
+// ground to fail one.
 SweepResult PairCheck::Sweep(Judgement* judgement) {
   const SweepResult result = sweep_.Check(motion(), judgement->watch);
-  if (!result.contact || !feeds_unknown() || !carry_->reference.inside()) return result;
+  const bool retreats = cutting() && IsRapid(motion()) && carry_->reference.inside();
+  if (!result.contact || !retreats) return result;
   const double depth = DepthOfFeeds();
   const Watch asked = judgement->watch;
   judgement->watch =
@@ -259,7 +270,9 @@ void PairCheck::OnContact(const Judgement& judgement, const SweepResult& result)
     OnFirstCut(result);
     return;
   }
-  if (blank_ != nullptr && !Uncut(*blank_, number(), result.first.s)) {
+  // Flutes and a shank as wide come upon the blank at one place, which is known to 0.001 each.
+  const double slack = pair().role == PairRole::kThinShankBlank ? 1e-3 : 0.0;
+  if (blank_ != nullptr && !Uncut(*blank_, number(), result.first.s + slack)) {
     if (pair().role == PairRole::kThinShankBlank) {
       Close(&contact_);
       return;
@@ -302,7 +315,7 @@ void PairCheck::Deepen(const PathPoint& contact, bool track) {
   const Interval depth =
       sweep_.Deepest(motion(), contact, contact_.with_lag, known, &contact_.depth_budget, &at);
   contact_.run.least = std::min(contact_.run.least, depth.upper);
-  if (track) sweep_.Include({depth.lower, depth.upper}, motion().where);
+  if (track) sweep_.Include({depth.lower, depth.upper}, motion());
   if (first && depth.upper < -kConfirmDepth) Confirm(at);
 }
 

@@ -71,6 +71,7 @@ class PairCheck {
   const motion::Motion& motion() const { return (*travel_)[at_]; }
   const Pair& pair() const { return setup_->pair; }
   std::uint64_t number() const { return number_ + at_; }
+  std::size_t IndexOf(const motion::Motion* motion) const;
   bool cutting() const;
   void OnMotion();
   Judgement JudgeMotion(double allowed) const;
@@ -79,6 +80,7 @@ class PairCheck {
   std::size_t CrossSwept(const Watch& watch);
   bool ClearWhenSwept(const Watch& watch);
   void Passed(std::size_t end);
+  void AfterFeed(double depth);
   void OnSpindleStopped();
   double AllowedDepth();
   bool feeds_unknown() const;

@@ -40,7 +40,7 @@ struct PairOutcome {
   bool touched = false;
   /// Least clearance over the run; upper is +inf where nothing was seen that is of interest.
   Interval least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  SourcePosition least_where;
+  std::size_t least_at = 0;  ///< The motion where that was seen.
   std::uint64_t queries = 0;
 };
 

@@ -89,7 +89,7 @@ void PairReport::Add(const PairSetup& setup, const motion::Travel& run, std::uin
   least_.lower = std::min(least_.lower, outcome.least.lower);
   if (outcome.least.upper < least_.upper) {
     least_.upper = outcome.least.upper;
-    least_where_ = outcome.least_where;
+    least_where_ = run[outcome.least_at].where;
   }
   if (!outcome.uncertified.empty() && !uncertified_) {
     uncertified_ = true;

@@ -86,7 +86,7 @@ TEST(ProfileShapeTest, AgreesWithDenseSampling) {
 // no less deep.
 TEST(ProfileShapeTest, SweptIsTheUnionOfItsPlaces) {
   const machine::Profile profiles[] = {
-      CylinderProfile(0, 40, 6), BallProfile(3, 20),
+      CylinderProfile(0, 40, 6), BallProfile(3, 20), BallProfile(3, 3),
       PolyProfile({{0, 0}, {4, 4}, {9, 4}, {20, 1}, {20, 0}}),
       PolyProfile({{80, 0}, {80, 20}, {110, 25}, {110, 31.5}, {120, 31.5}, {120, 22}, {180, 0}})};
   std::mt19937 random(7);

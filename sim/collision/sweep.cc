@@ -67,11 +67,11 @@ Eigen::Isometry3d PairSweep::Pose(const Motion& motion, const PathPoint& point) 
   return path_->path.Pose(motion.At(point.s, point.lag));
 }
 
-void PairSweep::Include(const Interval& clearance, const SourcePosition& where) {
+void PairSweep::Include(const Interval& clearance, const Motion& motion) {
   least_.lower = std::min(least_.lower, clearance.lower);
   if (clearance.upper < least_.upper) {
     least_.upper = clearance.upper;
-    least_where_ = where;
+    least_motion_ = &motion;
   }
 }
 
@@ -123,7 +123,7 @@ std::optional<Interval> PairSweep::Look(const Motion& motion, double s, const Wa
   const std::optional<Interval> clearance =
       engine_->Clearance(path_->path.Pose(motion.At(s)), goal);
   if (!clearance.has_value()) return clearance;
-  See(clearance->upper, motion.where, watch.track);
+  See(clearance->upper, motion, watch.track);
   Expect(clearance->lower - Spared(watch));
   return clearance;
 }
@@ -258,12 +258,12 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
     const double bound = translation.has_value()
                              ? translation->way.norm() + translation->astray
                              : motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
-    if (known_.clearance - bound > need) return Pass(motion, watch, known_.clearance - bound);
+    if (known_.clearance - bound > need) return Pass(known_.clearance - bound, &sweep);
     if (translation.has_value() && path_->revolved) {
       // How deep a feed goes is looked at.
       const double enough = motion::IsRapid(motion) ? need : std::max(need, 0.0);
       const std::optional<double> along = ClearAlongAxis(*translation, enough);
-      if (along.has_value()) return Pass(motion, watch, *along);
+      if (along.has_value()) return Pass(*along, &sweep);
     }
   }
   Cover(whole, &sweep);
@@ -276,20 +276,25 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
     }
     return result;
   }
+  Arrive(sweep.end, sweep);
   if (watch.track) least_.lower = std::min(least_.lower, result.least.lower);
-  known_.clearance = sweep.end;
-  known_.q = motion.q1();
   return result;
 }
 
-// A motion that is clear by `clearance` all the way.
-SweepResult PairSweep::Pass(const Motion& motion, const Watch& watch, double clearance) {
+// A motion that is clear by `clearance` all the way. What was seen at its start stays seen.
+SweepResult PairSweep::Pass(double clearance, Sweep* sweep) {
+  Arrive(clearance, *sweep);
+  sweep->result.least.lower = clearance;
+  return sweep->result;
+}
+
+// At the end of a motion without contact, clear by `clearance` there. Where nothing in reach is
+// contact, the pair may be inside each other by now.
+void PairSweep::Arrive(double clearance, const Sweep& sweep) {
   known_.clearance = clearance;
-  known_.q = motion.q1();
-  if (watch.track) least_.lower = std::min(least_.lower, clearance);
-  SweepResult result;
-  result.least = {clearance, kInfinity};
-  return result;
+  known_.q = sweep.motion->q1();
+  if (sweep.watch.contact <= engine_->floor()) known_.outside = false;
+  if (sweep.watch.track) least_.lower = std::min(least_.lower, clearance);
 }
 
 // The least clearance of a motion along the tool's own axis, in one look, if it is what is needed:
@@ -299,11 +304,11 @@ std::optional<double> PairSweep::ClearAlongAxis(const motion::Translation& trans
   const Eigen::Vector3d axis = translation.X_BA.linear().col(2);
   const double along = translation.way.dot(axis);
   const double astray = translation.astray + (translation.way - along * axis).norm();
-  if (astray > kAstray) return std::nullopt;
+  if (!(astray <= kAstray)) return std::nullopt;
   ++queries_;
   const std::optional<double> clearance =
       engine_->ClearanceAlong(translation.X_BA, along, need + astray);
-  if (!clearance.has_value() || *clearance - astray <= need) return std::nullopt;
+  if (!clearance.has_value() || !(*clearance - astray > need)) return std::nullopt;
   return *clearance - astray;
 }
 
@@ -378,13 +383,13 @@ void PairSweep::Observe(const Interval& clearance, const PathPoint& at, Sweep* s
     sweep->result.least.upper = clearance.upper;
     sweep->result.least_at = at;
   }
-  See(clearance.upper, sweep->motion->where, sweep->watch.track);
+  See(clearance.upper, *sweep->motion, sweep->watch.track);
 }
 
-void PairSweep::See(double clearance, const SourcePosition& where, bool track) {
+void PairSweep::See(double clearance, const Motion& motion, bool track) {
   if (!track || clearance >= least_.upper) return;
   least_.upper = clearance;
-  least_where_ = where;
+  least_motion_ = &motion;
 }
 
 bool PairSweep::Accept(const Span& span, const Span& whole, const Interval& clearance, double bound,

@@ -109,9 +109,10 @@ class PairSweep {
   /// Least clearance over all motions checked with Watch::track.
   const Interval& least() const { return least_; }
   bool has_least() const { return least_.upper < std::numeric_limits<double>::infinity(); }
-  const SourcePosition& least_where() const { return least_where_; }
+  /// Where its `upper` was seen; null where nowhere.
+  const motion::Motion* least_motion() const { return least_motion_; }
   /// Puts a depth that was found otherwise into least().
-  void Include(const Interval& clearance, const SourcePosition& where);
+  void Include(const Interval& clearance, const motion::Motion& motion);
 
   const motion::PairPath& path() const { return *path_; }
   std::uint64_t queries() const { return queries_; }
@@ -158,9 +159,10 @@ class PairSweep {
              const Watch& watch);
   bool Start(Sweep* sweep);
   void Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep);
-  void See(double clearance, const SourcePosition& where, bool track);
+  void See(double clearance, const motion::Motion& motion, bool track);
   std::optional<double> ClearAlongAxis(const motion::Translation& translation, double need);
-  SweepResult Pass(const motion::Motion& motion, const Watch& watch, double clearance);
+  SweepResult Pass(double clearance, Sweep* sweep);
+  void Arrive(double clearance, const Sweep& sweep);
   void Cover(const motion::Span& whole, Sweep* sweep);
   std::optional<Interval> Query(const motion::Span& span, double bound, Sweep* sweep);
   bool Accept(const motion::Span& span, const motion::Span& whole, const Interval& clearance,
@@ -173,7 +175,7 @@ class PairSweep {
   PairEngine* engine_;
   Known known_;
   Interval least_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  SourcePosition least_where_;
+  const motion::Motion* least_motion_ = nullptr;
   std::vector<motion::Span> stack_;
   Patience around_;
   std::size_t level_ = 0;  // of the last stretch that was settled around a pose

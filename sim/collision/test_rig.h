@@ -128,8 +128,9 @@ class Rig {
   }
 
   /// `window`: motions of each window.
-  CollisionResult Run(std::size_t window = motion::kWindowSize) const {
-    CollisionChecker checker(machine_, scene_, tools_, check_);
+  CollisionResult Run(std::size_t window = motion::kWindowSize,
+                      const OutcomeCache* cache = nullptr) const {
+    CollisionChecker checker(machine_, scene_, tools_, check_, cache);
     for (std::size_t i = 0; i < motions_.size(); i += window) {
       const auto end = std::min(motions_.size(), i + window);
       checker.Check({{motions_.begin() + static_cast<std::ptrdiff_t>(i),
@@ -157,8 +158,11 @@ class Rig {
     return rig;
   }
   const std::vector<motion::Motion>& motions() const { return motions_; }
+  std::vector<motion::Motion>& motions() { return motions_; }
   const machine::Scene& scene() const { return scene_; }
+  machine::Scene& scene() { return scene_; }
   const machine::ToolTable& tools() const { return tools_; }
+  machine::ToolTable& tools() { return tools_; }
 
  private:
   motion::Motion& Add(motion::MotionKind kind, motion::Path path, const motion::JointVector& q1) {
@@ -201,7 +205,11 @@ inline std::string Everything(const CollisionResult& result) {
   text << std::hexfloat;
   for (const Finding& f : result.findings) {
     text << f.where.line << ' ' << static_cast<int>(f.severity) << ' ' << f.message << ' '
-         << f.clearance_mm.value_or(0.0) << ' ' << f.time_s.value_or(0.0) << '\n';
+         << f.clearance_mm.value_or(0.0) << ' ' << f.time_s.value_or(0.0);
+    for (const auto& [letter, value] : f.axes) text << ' ' << letter << value;
+    for (const auto& point : f.points)
+      text << ' ' << point[0] << ',' << point[1] << ',' << point[2];
+    text << '\n';
   }
   for (const PairClearance& c : result.clearances) {
     text << c.bodies.front() << ' ' << c.bodies.back() << ' ' << c.proven_mm << ' ' << c.seen_mm

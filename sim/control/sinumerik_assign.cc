@@ -30,9 +30,7 @@ bool SinumerikFlow::State::EvaluateList(std::uint32_t first, std::uint32_t count
 }
 
 bool SinumerikFlow::State::Assign(const Part& part, SinumerikStep* out) {
-  if (part.letter == 'R') {
-    return AssignParameter(part);
-  }
+  if (part.letter == 'R' || RParameterNumber(part.name) >= 0) return AssignParameter(part);
   if (part.letter == 'G' && part.index_count == 0) {
     Value value;
     if (!EvaluateAt(part.expression, &value)) return false;
@@ -42,7 +40,7 @@ bool SinumerikFlow::State::Assign(const Part& part, SinumerikStep* out) {
     return Alarm(part.column, 12475, "the value of G is no G code of the control");
   }
   if (part.letter != 0) return AddValuedWord(part, out);
-  if (part.name[0] == '$') return AssignSystem(part);
+  if (part.name[0] == '$' || IsGlobalRParameter(part.name)) return AssignSystem(part);
   if (const auto variable = variables.Find(part.name)) return AssignVariable(part, variable);
   const nc::SinumerikCommand* command = nc::FindSinumerikCommand(part.name);
   const bool address = command != nullptr && command->kind == nc::SinumerikCommandKind::kAddress;
@@ -131,7 +129,8 @@ bool SinumerikFlow::State::AssignList(const Part& part,
 bool SinumerikFlow::State::AssignParameter(const Part& part) {
   std::vector<Value> indices;
   if (!EvaluateList(part.first_index, part.index_count, &indices)) return false;
-  if (part.extension >= 0) indices.insert(indices.begin(), Value::Int(part.extension));
+  const long number = RParameterNumber(part.name);
+  if (number >= 0) indices.insert(indices.begin(), Value::Int(static_cast<double>(number)));
   if (part.modifier != nc::SinumerikModifier::kNone) {
     return Alarm(part.column, 12080, "AC, IC, DC ... are for axes");
   }
@@ -180,11 +179,10 @@ bool SinumerikFlow::State::SetLoopVariable(const Part& part, const Value& value)
   std::vector<Value> indices;
   if (!EvaluateList(part.first_index, part.index_count, &indices)) return false;
   std::shared_ptr<SinumerikVariable> variable = variables.Find(part.name);
-  if (nc::Upper(part.name[0]) == 'R' && (part.name.size() == 1 || nc::IsDigit(part.name[1]))) {
+  const long number = RParameterNumber(part.name);
+  if (number >= 0 || nc::SameName(part.name, "R")) {
     variable = variables.r_parameters();
-    double number = 0.0;
-    for (const char c : part.name.substr(1)) number = number * 10.0 + (c - '0');
-    if (part.name.size() > 1) indices.insert(indices.begin(), Value::Int(number));
+    if (number >= 0) indices.insert(indices.begin(), Value::Int(static_cast<double>(number)));
     if (indices.size() == 1 && indices[0].number >= 0.0 &&
         indices[0].number < static_cast<double>(variable->size())) {
       variables.MarkSet(static_cast<std::size_t>(std::round(indices[0].number)));

@@ -62,6 +62,7 @@ void SinumerikFlow::State::Call(Level callee, int column) {
   }
   if (callee.kind == LevelKind::kSubprogram) variables.PushLevel(callee.parameters);
   if (callee.save) events.push_back(SinumerikEvent::kSave);
+  callee.modal = callee.modal || level().modal;
   callee.next = callee.start;
   levels.push_back(std::move(callee));
 }
@@ -82,7 +83,6 @@ void SinumerikFlow::State::Return() {
     --current.passes;
     current.next = current.start;
     if (current.kind == LevelKind::kSubprogram) {
-      current.started = false;
       variables.ResetLevel(current.parameters);
     }
     if (current.save) events.push_back(SinumerikEvent::kSave);
@@ -102,14 +102,17 @@ void SinumerikFlow::State::ReportMissing(std::string_view name, int column) {
   const std::string upper = nc::UpperName(name.substr(0, 100));
   std::string text;
   for (const char c : upper) text += c >= ' ' && c < '\x7f' ? c : '?';
+  // Names of a letter and digits (L54) are near to many.
+  const bool slip = text.size() > 3 && !nc::IsDigit(text[1]);
   Unsupported(column, "the subprogram " + text + " was not simulated" +
-                          DidYouMean(text, nc::SinumerikCommandNames()) + ": " + programs.Where() +
-                          "; the control has it or stops with alarm 14011");
+                          (slip ? DidYouMean(text, nc::SinumerikCommandNames()) : "") + ": " +
+                          programs.Where() + "; the control has it or stops with alarm 14011");
 }
 
 /// By its name, with the arguments of the part.
 bool SinumerikFlow::State::CallSubprogram(const Part& part, std::string_view name) {
   std::vector<Argument> arguments;
+  called = true;
   const SinumerikProgram found = programs.Find(name, *level().text);
   if (found.text == nullptr) {
     ReportMissing(name, part.column);
@@ -142,9 +145,14 @@ void SinumerikFlow::State::SetModalCall(const Part& part) {
   modal.name = nc::UpperName(part.name);
   modal.where = Here(part.column);
   const nc::SinumerikCommand* command = nc::FindSinumerikCommand(part.name);
-  if (command != nullptr && command->kind == nc::SinumerikCommandKind::kCycle) {
+  const bool cycle = command != nullptr && command->kind == nc::SinumerikCommandKind::kCycle;
+  if (cycle && command->support != nc::Support::kUnsupported) {
     modal.command = command;
-  } else if (programs.Find(modal.name, *level().text).text == nullptr) {
+  } else if (programs.Find(modal.name, *level().text).text != nullptr) {
+    return;
+  } else if (cycle) {
+    modal.command = command;
+  } else {
     ReportMissing(modal.name, part.column);
     modal = {};
   }

@@ -43,6 +43,12 @@ TEST(SinumerikCallsTest, TheFirstMainProgramOfAnArchiveIsRun) {
       "X1|M17|X2|M30|");
 }
 
+TEST(SinumerikCallsTest, AProgramEndsAtTheNextHeader) {
+  EXPECT_EQ(Trace("EMPTY P2\n", "%_N_EMPTY_SPF\n; nothing\n%_N_NEXT_SPF\nX1\n"), "M30|");
+  EXPECT_EQ(SinumerikTestRun("%_N_A_MPF\n%_N_B_SPF\nX1\n").trace, "");
+  EXPECT_EQ(SinumerikTestRun("; made by hand\n%_N_A_MPF\nX1\n%_N_B_SPF\nX2\n").trace, "X1|");
+}
+
 TEST(SinumerikCallsTest, Parameters) {
   const std::string head =
       "%_N_SUB_SPF\nPROC SUB(REAL AA, INT BB=9, STRING[20] CC, AXIS DD=X, BOOL EE)\n";
@@ -87,6 +93,9 @@ TEST(SinumerikCallsTest, CallOfABlock) {
             "X1|X2|X3|X4|M30|");
   EXPECT_EQ(Trace("CALL \"SUB\" BLOCK LA TO LA\n", "%_N_SUB_SPF\nX1\nLA: X2\nX3\n"), "X2|M30|");
   EXPECT_EQ(First("CALL BLOCK LA TO LB\nLA: X1\n", ""), "3:18 14082");
+  EXPECT_EQ(Trace("CALL \"SUB\" BLOCK LA TO LB\nX9\n",
+                  "%_N_SUB_SPF\nLA: R1=R1+1\nX=R1\nIF R1<2 GOTOB LA\nLB: X3\n"),
+            "X=1|X=2|X3|X9|M30|");
 }
 
 TEST(SinumerikCallsTest, NestingIsBounded) {
@@ -135,10 +144,26 @@ TEST(SinumerikCallsTest, ModalCycle) {
             "X1|<CYCLE81(1,,2)>M8|X2|<CYCLE81(1,,2)>X3|M30|");
 }
 
+TEST(SinumerikCallsTest, ACycleThatIsThereAsText) {
+  // CYCLE92 is not simulated: the user's own text of that name is run.
+  EXPECT_EQ(Trace("CYCLE92(3)\nX9\n", "%_N_CYCLE92_SPF\nPROC CYCLE92(REAL AA)\nX=AA\nRET\n"),
+            "X=3|X9|M30|");
+  EXPECT_EQ(Trace("CYCLE92(3)\nX9\n", ""), "CYCLE92(3)|X9|M30|");
+}
+
+TEST(SinumerikCallsTest, PassesOfWhatIsNotFoundAreNoWord) {
+  EXPECT_EQ(Trace("L99 P3\nX1\n", ""), "X1|M30|");
+  EXPECT_EQ(Trace("POCK P0\nX1\n", "%_N_POCK_SPF\nX2\n"), "X1|M30|");
+  EXPECT_EQ(First("L99 P-1\n", ""), "3:1 unsupported-code");
+}
+
 TEST(SinumerikCallsTest, ModalSubprogram) {
   const std::string sub = "%_N_DRILL_SPF\nPROC DRILL(REAL AA)\nX=AA\nZ1\nRET\n";
   // Its own motion calls nothing.
   EXPECT_EQ(Trace("MCALL DRILL(7)\nX1\nX2\nMCALL\nX3\n", sub), "X1|X=7|Z1|X2|X=7|Z1|X3|M30|");
+  // Nor does the motion of what it calls.
+  EXPECT_EQ(Trace("MCALL DRILL\nX1\n", "%_N_DRILL_SPF\nDEEP\nRET\n%_N_DEEP_SPF\nX5\nRET\n"),
+            "X1|X5|M30|");
   EXPECT_EQ(First("MCALL NODRILL(7)\nX1\n", ""), "3:1 unsupported-code");
 }
 

@@ -79,6 +79,7 @@ void SinumerikFlow::State::Start() {
       if (!chosen->is_main && section.is_main) chosen = &section;
     }
     first.start = chosen->begin;
+    first.started = true;
   }
   first.next = first.start;
   levels.push_back(std::move(first));
@@ -144,7 +145,7 @@ bool SinumerikFlow::State::ReadBlock() {
   const nc::TextPosition at = level().next;
   nc::ParseSinumerikBlock(*level().text->program, at.offset, at.line, &block);
   ReleasePages();
-  if (block.has_header && level().started) {
+  if (block.has_header && (level().started || level().kind != LevelKind::kMain)) {
     EndOfText();
     return false;
   }
@@ -174,6 +175,7 @@ void SinumerikFlow::State::Execute(SinumerikStep* out) {
   letters_seen = 0;
   m_words = 0;
   syntax_group_seen = false;
+  called = false;
   if (loop_back && *loop_back != block.offset) loop_back.reset();
   out->where = Here(1);
   out->sequence = block.sequence;
@@ -182,7 +184,7 @@ void SinumerikFlow::State::Execute(SinumerikStep* out) {
   for (std::size_t i = 0; i < block.parts.size(); ++i) {
     if (!ExecutePart(&i, out)) break;
   }
-  if (pending.action != Action::kCall) return;
+  if (!called) return;
   // `NAME P3`: passes of the call.
   SinumerikItem* passes = out->Find('P');
   if (passes == nullptr) return;
@@ -191,8 +193,10 @@ void SinumerikFlow::State::Execute(SinumerikStep* out) {
     Alarm(passes->column, 12100, "the number of passes is not 0 to 9999");
     return;
   }
-  pending.callee.passes = static_cast<long>(passes->value);
-  if (pending.callee.passes == 0) pending.action = Action::kNone;
+  if (pending.action == Action::kCall) {
+    pending.callee.passes = static_cast<long>(passes->value);
+    if (pending.callee.passes == 0) pending.action = Action::kNone;
+  }
   out->items.erase(out->items.begin() + (passes - out->items.data()));
 }
 

@@ -112,7 +112,9 @@ struct SinumerikFlow::State final : nc::SinumerikReader {
   void JumpTo(nc::TextPosition target);
   void Structure(const Part& part);
   void StructureFor(const Part& part, const nc::SinumerikPartner& partner);
-  nc::TextPosition Behind(nc::TextPosition position);
+  nc::TextPosition Behind(nc::TextPosition position) { return Behind(*level().text, position); }
+  /// The line after the one at `position`.
+  static nc::TextPosition Behind(const ProgramText& text, nc::TextPosition position);
   void Repeat(const Part& part);
   bool RepeatRange(const Part& part, Level* section);
   void CallBlock(const Part& part);
@@ -162,6 +164,7 @@ struct SinumerikFlow::State final : nc::SinumerikReader {
   std::uint32_t letters_seen = 0;        ///< Addresses of the block, a bit a letter.
   int m_words = 0;
   bool syntax_group_seen = false;
+  bool called = false;  ///< The block calls a subprogram, found or not.
   bool stopped = false;
   bool ended = false;
   std::uint64_t blocks = 0;

@@ -93,16 +93,21 @@ bool SinumerikFlow::State::Case(std::size_t index) {
 
 /// Sections that the target does not lie in end here.
 void SinumerikFlow::State::JumpTo(TextPosition target) {
+  const ProgramText* text = level().text;
   while (level().kind == LevelKind::kSection &&
          (target.offset < level().start.offset || target.offset >= level().end)) {
     levels.pop_back();
   }
+  if (level().text != text) {
+    Unsupported(pending.column, "a jump out of the section of another program was not simulated");
+    stopped = true;
+    return;
+  }
   level().next = target;
 }
 
-/// The line after the one at `position`.
-TextPosition SinumerikFlow::State::Behind(TextPosition position) {
-  nc::Scanner scanner(level().text->program->text(), position.offset);
+TextPosition SinumerikFlow::State::Behind(const ProgramText& text, TextPosition position) {
+  nc::Scanner scanner(text.program->text(), position.offset);
   scanner.SkipToLineEnd();
   scanner.SkipLineEnd();
   return {position.offset + scanner.consumed(), position.line + 1};
@@ -263,10 +268,7 @@ void SinumerikFlow::State::CallBlock(const Part& part) {
     return;
   }
   section.start = places[0];
-  nc::Scanner scanner(section.text->program->text(), places[1].offset);
-  scanner.SkipToLineEnd();
-  scanner.SkipLineEnd();
-  section.end = places[1].offset + scanner.consumed();
+  section.end = Behind(*section.text, places[1]).offset;
   AddSection(std::move(section), part.column);
 }
 

@@ -19,18 +19,6 @@ using nc::SinumerikValue;
 constexpr double kMaxWord = 1e9;
 constexpr int kMaxMWords = 5;
 
-/// "R12" or "$R12" -> 12; -1 where it is no R parameter.
-long ParameterNumber(std::string_view name) {
-  if (!name.empty() && name[0] == '$') name.remove_prefix(1);
-  if (name.size() < 2 || name.size() > 7 || nc::Upper(name[0]) != 'R') return -1;
-  long number = 0;
-  for (const char c : name.substr(1)) {
-    if (!nc::IsDigit(c)) return -1;
-    number = number * 10 + (c - '0');
-  }
-  return number;
-}
-
 bool Fault(SinumerikFault* fault, std::string message) {
   fault->message = std::move(message);
   return false;
@@ -52,10 +40,10 @@ bool SinumerikFlow::State::ReadName(std::string_view name, const std::vector<Val
   last_read = nullptr;
   const bool indexed_r = name.size() == 1 && nc::Upper(name[0]) == 'R' && !indices.empty();
   if (indexed_r) return ReadParameter(indices, value, fault);
-  if (const long number = ParameterNumber(name); number >= 0 && indices.empty()) {
+  if (const long number = RParameterNumber(name); number >= 0 && indices.empty()) {
     return ReadParameter({Value::Int(static_cast<double>(number))}, value, fault);
   }
-  if (name[0] == '$') return ReadSystem(name, indices, value, fault);
+  if (name[0] == '$' || IsGlobalRParameter(name)) return ReadSystem(name, indices, value, fault);
   if (const auto variable = variables.Find(name)) {
     return ReadVariable(variable, indices, value, fault);
   }
@@ -87,10 +75,25 @@ bool SinumerikFlow::State::ReadVariable(const std::shared_ptr<SinumerikVariable>
                                         SinumerikFault* fault) {
   const bool component = variable->type() == nc::SinumerikType::kFrame &&
                          indices.size() == variable->sizes().size() + 2;
+  // One index more than a STRING has: a character of it.
+  const bool character = variable->type() == nc::SinumerikType::kString &&
+                         indices.size() == variable->sizes().size() + 1;
   std::size_t offset = 0;
-  const std::vector<Value> place(indices.begin(), indices.end() - (component ? 2 : 0));
+  const std::vector<Value> place(indices.begin(), indices.end() - (component   ? 2
+                                                                   : character ? 1
+                                                                               : 0));
   std::string error = variable->OffsetOf(place, &offset);
   if (!error.empty()) return Fault(fault, std::move(error));
+  if (character) {
+    const std::string& text = variable->value(offset).text;
+    const double at = indices.back().is_number() ? indices.back().number : -1.0;
+    if (!(at >= 0.0 && at < static_cast<double>(text.size()))) {
+      return Fault(fault, nc::AlarmText(17020, "the string has no character there"));
+    }
+    *value = Value::Default(nc::SinumerikType::kChar);
+    value->number = static_cast<unsigned char>(text[static_cast<std::size_t>(at)]);
+    return true;
+  }
   if (component) {
     error = ReadFrameComponent(variable->value(offset), indices[indices.size() - 2].text,
                                indices.back().text, value);
@@ -153,7 +156,7 @@ bool SinumerikFlow::State::CallFunction(std::string_view name, const std::vector
       arguments[0].text[0] != '$') {
     const std::string& text = arguments[0].text;
     const std::string_view plain = std::string_view(text).substr(0, text.find('['));
-    *value = Value::Bool(variables.Find(plain) != nullptr || ParameterNumber(plain) >= 0 ||
+    *value = Value::Bool(variables.Find(plain) != nullptr || RParameterNumber(plain) >= 0 ||
                          nc::UpperName(plain) == "R");
     return true;
   }
@@ -254,6 +257,13 @@ bool SinumerikFlow::State::AddName(const Part& part, SinumerikStep* out) {
     case SinumerikCommandKind::kAddress:
       return Alarm(part.column, 12080,
                    "the address " + std::string(command->name) + " has no value");
+    case SinumerikCommandKind::kCycle:
+      // What is not simulated may be there as the user's own text.
+      if (command->support == nc::Support::kUnsupported &&
+          programs.Find(part.name, *level().text).text != nullptr) {
+        return CallSubprogram(part, part.name);
+      }
+      return AddCommandCall(*command, part, out);
     default:
       return AddCommandCall(*command, part, out);
   }

@@ -81,6 +81,23 @@ std::string SinumerikVariable::OffsetOf(const std::vector<SinumerikValue>& indic
   return "";
 }
 
+long RParameterNumber(std::string_view name) {
+  if (!name.empty() && name[0] == '$') name.remove_prefix(1);
+  if (name.size() < 2 || name.size() > 7 || nc::Upper(name[0]) != 'R') return -1;
+  long number = 0;
+  for (const char c : name.substr(1)) {
+    if (!nc::IsDigit(c)) return -1;
+    number = number * 10 + (c - '0');
+  }
+  return number;
+}
+
+bool IsGlobalRParameter(std::string_view name) {
+  if (!name.empty() && name[0] == '$') name.remove_prefix(1);
+  return name.size() > 2 && nc::SameName(name.substr(0, 2), "RG") &&
+         std::all_of(name.begin() + 2, name.end(), nc::IsDigit);
+}
+
 bool IsFrameComponent(std::string_view name) {
   for (const std::string_view component : {"TR", "FI", "RT", "SC", "MI"}) {
     if (nc::SameName(name, component)) return true;

@@ -47,6 +47,11 @@ class SinumerikVariable {
 /// Names of one program level, upper case.
 using SinumerikScope = std::map<std::string, std::shared_ptr<SinumerikVariable>, std::less<>>;
 
+/// 12 of `R12` and `$R12`; -1 of what is no R parameter.
+long RParameterNumber(std::string_view name);
+/// `RG12`, `$RG12`: an R parameter of the whole control, which is not simulated.
+bool IsGlobalRParameter(std::string_view name);
+
 /// A component of a frame, `[X,TR]`: TR, FI, RT, SC or MI. Nullopt-like "" where the name is none.
 bool IsFrameComponent(std::string_view name);
 /// Reads one; returns "" or why not. A chain of several frames has components only when it is

@@ -54,10 +54,24 @@ TEST(SinumerikVariablesTest, Arrays) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(run.Value("R" + std::to_string(i + 1)), expected[i]) << i;
 }
 
+TEST(SinumerikVariablesTest, CharactersOfAString) {
+  EXPECT_EQ(Trace("DEF STRING[5] SS=\"abc\"\nDEF STRING[9] TT\nTT=<<SS[2]<<SS[0]\nT=TT\n"),
+            "T=ca|");
+  EXPECT_EQ(First("DEF STRING[5] SS=\"abc\"\nR1=SS[3]\n"), "2:4 17020");
+}
+
 TEST(SinumerikVariablesTest, RParametersAreKeptByTheControl) {
   SinumerikTestRun run("R1=R102+1 R[R1+1]=R102\nX=R1\n");
   EXPECT_EQ(run.trace, "X=1|");
   EXPECT_EQ(run.system.assumed, "R102 ");  // Once; R1 has been set.
+}
+
+TEST(SinumerikVariablesTest, OtherWaysToAnRParameter) {
+  EXPECT_EQ(Trace("$R3=5 R[2]=$R3+1\nX=R2\nFOR R[4]=1 TO 2\nY=R4\nENDFOR\n"), "X=6|Y=1|Y=2|");
+  EXPECT_EQ(First("R1=ISVAR(\"R5\")+2*ISVAR(\"_NONE\")\nX=_V\n"), "2:3 12550");
+  EXPECT_EQ(SinumerikTestRun("DEF REAL VV\nR1=ISVAR(\"VV\")+2*ISVAR(\"_NONE\")\n").Value("R1"),
+            1.0);
+  EXPECT_EQ(First("R1=RG5\n"), "1:4 unsupported-code");
 }
 
 TEST(SinumerikVariablesTest, NamesHaveNoCaseAndStringsHave) {

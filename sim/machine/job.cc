@@ -185,7 +185,7 @@ void ReadControl(const JobContext& context, TomlTable table, Job* job) {
   paths("data_files", &job->data_files);
   job->m_codes_without_motion = table.Integers("m_codes_without_motion", 0, 9999);
   // The job does not know the machine's dialect: a setting of any control that ncsim knows is
-  // taken.
+  // taken. BuildScene() holds it against the machine.
   for (const std::string& dialect : Dialects()) {
     ReadSettings(dialect, context.mm_per_unit, &table, &job->control);
   }

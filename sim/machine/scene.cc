@@ -9,6 +9,7 @@
 #include "sim/base/text.h"
 #include "sim/machine/model_toml.h"
 #include "sim/machine/offset_name.h"
+#include "sim/machine/settings.h"
 
 namespace ncsim::machine {
 namespace {
@@ -137,6 +138,32 @@ class Resolver {
   std::vector<const Placement*> open_;
 };
 
+/// What the job says to another control than the machine's would be ignored in silence.
+void CheckDialect(const Machine& machine, const Job& job, Diagnostics* diagnostics) {
+  const std::string& dialect = machine.control.dialect;
+  if (dialect.empty()) return;
+  const std::vector<Setting>& known = SettingsOf(dialect);
+  for (const auto& entry : job.control) {
+    if (std::any_of(known.begin(), known.end(),
+                    [&](const Setting& setting) { return setting.name == entry.first; })) {
+      continue;
+    }
+    diagnostics->Error(job.path, 0, 0,
+                       "'" + entry.first + "' is no setting of the machine's control, " + dialect);
+  }
+  if (dialect == "sinumerik-840d") return;
+  if (!job.data_files.empty()) {
+    diagnostics->Error(job.path, 0, 0,
+                       "'data_files' are not for the machine's control, " + dialect);
+  }
+  for (const Tool& tool : job.tools) {
+    if (tool.edges.empty()) continue;
+    diagnostics->Error(job.path, 0, 0,
+                       "T" + std::to_string(tool.number) +
+                           ": 'edges' are not for the machine's control, " + dialect);
+  }
+}
+
 }  // namespace
 
 std::optional<std::map<char, double>> OffsetValues(const Machine& machine, const Job& job,
@@ -157,6 +184,7 @@ Eigen::Isometry3d OffsetFrame(const Machine& machine, const std::map<char, doubl
 }
 
 Scene BuildScene(const Machine& machine, const Job& job, Diagnostics* diagnostics) {
+  CheckDialect(machine, job, diagnostics);
   Scene scene;
   std::set<std::string> names;
   for (const LinkBody& body : machine.bodies) {

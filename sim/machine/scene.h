@@ -37,7 +37,8 @@ std::optional<std::map<char, double>> OffsetValues(const Machine& machine, const
 /// these machine values, machine directions at their B, C. By the metal (the URDF).
 Eigen::Isometry3d OffsetFrame(const Machine& machine, const std::map<char, double>& values);
 
-/// Resolves every placement. Meshes of bodies are moved, not copied, out of `job` copies.
+/// Resolves every placement, and refuses what the job says to another control than the machine's.
+/// Meshes of bodies are moved, not copied, out of `job` copies.
 Scene BuildScene(const Machine& machine, const Job& job, Diagnostics* diagnostics);
 
 }  // namespace ncsim::machine

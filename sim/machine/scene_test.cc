@@ -43,6 +43,33 @@ class SceneTest : public ::testing::Test {
   Machine machine_;
 };
 
+// A machine data number on a Haas, a Haas setting on a SINUMERIK: nobody would look at it.
+TEST_F(SceneTest, WhatIsForAnotherControlIsRefused) {
+  const std::string sinumerik =
+      "[control]\n\"MD21104\" = 0\ndata_files = [\"a.ini\"]\n[[tool]]\n"
+      "number = 3\nlength = 100.0\nholder = []\nedges = [ { number = 1 } ]\n"
+      "cutter = { type = \"end\", diameter = 6.0, flute_length = 100.0 }\n";
+  const std::string both = "[control]\nblock_skip = true\noptional_stop = true\n";
+  BuildScene(machine_, Read(both), &diagnostics_);
+  EXPECT_THAT(Reported(diagnostics_), IsEmpty());
+  BuildScene(machine_, Read(sinumerik), &diagnostics_);
+  EXPECT_THAT(
+      Reported(diagnostics_),
+      ElementsAre("job.toml: error: 'MD21104' is no setting of the machine's control, haas-ngc",
+                  "job.toml: error: 'data_files' are not for the machine's control, haas-ngc",
+                  "job.toml: error: T3: 'edges' are not for the machine's control, haas-ngc"));
+  machine_.control.dialect = "sinumerik-840d";
+  Diagnostics others;
+  BuildScene(machine_, Read(sinumerik), &others);
+  BuildScene(machine_, Read(both), &others);
+  EXPECT_THAT(Reported(others), IsEmpty());
+  BuildScene(machine_, Read("[control]\n\"setting 9\" = \"mm\"\n"), &others);
+  EXPECT_THAT(
+      Reported(others),
+      ElementsAre(
+          "job.toml: error: 'setting 9' is no setting of the machine's control, sinumerik-840d"));
+}
+
 TEST_F(SceneTest, ValuesAsEnteredAreTakenWithZerosForTheRest) {
   const auto values =
       Values(Read("[offsets]\nG54 = { X = -300.0, Z = -410.0, C = 45.0 }\n"), "G54");

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "sim/motion/test_motions.h"
+#include "sim/motion/top_speed.h"
 #include "sim/motion/travel.h"
 
 namespace ncsim::motion {
@@ -69,6 +70,17 @@ TEST_F(GreatCircleMotion, TotalsOfATurnBesideThePole) {
   EXPECT_NEAR(PairTravel(pair, travel).Between(0, 1), line + chord * 95.0, 0.01);
   pair.revolved = false;
   EXPECT_GT(PairTravel(pair, travel).Between(0, 1), line + 190.0);
+}
+
+// In the two middle ones of 16 pieces C turns by atan2(tan psi, sin alpha0) each, psi a sixteenth
+// of the way and alpha0 the least angle from the pole: tan alpha0 = tan 10 cos 89.5.
+TEST_F(GreatCircleMotion, TopSpeedIsWhereCSwings) {
+  const Motion motion = MakeMotion(Curve(10, 0, 10, 179));
+  const double alpha0 = std::atan(std::tan(10 * kDeg) * std::cos(89.5 * kDeg));
+  const double psi = std::get<TcpCurve>(motion.path).great_circle->angle() / 16.0;
+  const double turn = std::atan2(std::tan(psi), std::sin(alpha0));
+  EXPECT_NEAR(TravelAtTopSpeed(motion)[4], 16.0 * turn, 1e-9);
+  EXPECT_GT(16.0 * turn, 7.0 * 179 * kDeg);
 }
 
 // The property tests of boxes, bounds and totals mean something: most of their curves are led so.

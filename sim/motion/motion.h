@@ -203,10 +203,4 @@ struct PairPath {
 double RelativeBound(const Motion& motion, const PairPath& pair, const Span& span, double s_ref,
                      double lag_ref);
 
-/// Motions travel in immutable windows, cut at tool changes and at a fixed count.
-inline constexpr std::size_t kWindowSize = 4096;
-struct Window {
-  std::vector<Motion> motions;
-};
-
 }  // namespace ncsim::motion

@@ -16,6 +16,7 @@ JointVector TravelAtTopSpeed(const Motion& motion) {
     for (const int joint : curve->frame->control.rotary()) {
       turn = std::max(turn, std::abs(curve->q1[joint] - curve->q0[joint]));
     }
+    if (curve->great_circle != nullptr) turn = std::max(turn, curve->great_circle->angle());
     if (curve->arc) turn = std::max(turn, std::abs(curve->sweep));
   }
   const int pieces = std::clamp(static_cast<int>(std::ceil(turn / kPiece)), 1, 16);

@@ -19,15 +19,6 @@ struct LineHead {
   bool has_more = false;  ///< Something else that is no comment.
 };
 
-long ReadDigits(Scanner* scanner) {
-  long value = 0;
-  int digits = 0;
-  for (; IsDigit(scanner->Peek()); scanner->Advance()) {
-    if (++digits <= 9) value = value * 10 + (scanner->Peek() - '0');
-  }
-  return digits == 0 || digits > 9 ? -1 : value;
-}
-
 void SkipComment(Scanner* scanner) {
   while (!scanner->AtEnd() && scanner->Peek() != ')') scanner->Advance();
   if (!scanner->AtEnd()) scanner->Advance();
@@ -48,11 +39,11 @@ LineHead ReadHead(Scanner* scanner) {
       scanner->Advance();
     } else if (c == 'N' && head.sequence < 0 && head.program < 0) {
       scanner->Advance();
-      head.sequence = ReadDigits(scanner);
+      head.sequence = scanner->ReadDigits();
       if (head.sequence < 0) break;
     } else if (c == 'O' && head.program < 0) {
       scanner->Advance();
-      head.program = ReadDigits(scanner);
+      head.program = scanner->ReadDigits();
       if (head.program < 0) break;
     } else {
       break;

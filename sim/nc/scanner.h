@@ -74,6 +74,16 @@ class Scanner {
     return true;
   }
 
+  /// A block number: up to nine digits; -1 for none or more. Stands behind all of them.
+  long ReadDigits() {
+    long value = 0;
+    int digits = 0;
+    for (; IsDigit(Peek()); Advance()) {
+      if (++digits <= 9) value = value * 10 + (Peek() - '0');
+    }
+    return digits == 0 || digits > 9 ? -1 : value;
+  }
+
   /// "12", "12.", ".5", "1.25": no sign, no exponent. Stands after the last digit or point,
   /// whatever the status. A value above `limit` is kTooLarge.
   NumberStatus ReadNumber(Number* number, double limit = kMaxNumber) {

@@ -13,7 +13,6 @@ namespace {
 
 // Beyond what 512 characters can hold; they keep a hostile line from eating memory.
 constexpr std::size_t kMaxParts = 256;
-constexpr std::size_t kMaxSequenceDigits = 9;
 
 struct NamedModifier {
   std::string_view name;
@@ -150,12 +149,8 @@ bool SinumerikBlockParser::ParseSequence() {
   if ((c != 'N' && c != ':') || !IsDigit(scanner_.PeekAfter(1))) return true;
   const int column = scanner_.column();
   scanner_.Advance();
-  std::size_t digits = 0;
-  long number = 0;
-  for (; IsDigit(scanner_.Peek()); scanner_.Advance()) {
-    if (++digits <= kMaxSequenceDigits) number = number * 10 + (scanner_.Peek() - '0');
-  }
-  if (digits > kMaxSequenceDigits) {
+  const long number = scanner_.ReadDigits();
+  if (number < 0) {
     Fail(column, 12160, "a block number with more than 9 digits");
     return false;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include "sim/nc/sinumerik_token.h"
@@ -27,15 +28,6 @@ struct LineHead {
   bool structure = false;  ///< A word of a control structure stands first.
 };
 
-long ReadDigits(Scanner* scanner) {
-  long value = 0;
-  int digits = 0;
-  for (; IsDigit(scanner->Peek()); scanner->Advance()) {
-    if (++digits <= 9) value = value * 10 + (scanner->Peek() - '0');
-  }
-  return digits == 0 || digits > 9 ? -1 : value;
-}
-
 LineHead ReadHead(Scanner* scanner) {
   LineHead head;
   scanner->SkipSpaces();
@@ -45,13 +37,13 @@ LineHead ReadHead(Scanner* scanner) {
   }
   if (scanner->Peek() == '/') {
     scanner->Advance();
-    ReadDigits(scanner);
+    scanner->ReadDigits();
     scanner->SkipSpaces();
   }
   const char c = Upper(scanner->Peek());
   if ((c == 'N' || c == ':') && IsDigit(scanner->PeekAfter(1))) {
     scanner->Advance();
-    head.number = ReadDigits(scanner);
+    head.number = scanner->ReadDigits();
     scanner->SkipSpaces();
   }
   std::string_view name = PeekName(*scanner);
@@ -135,6 +127,9 @@ SinumerikIndex::SinumerikIndex(const Program& program) {
     }
   }
   Close(text.size());
+  std::sort(numbers_.begin(), numbers_.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.number, a.offset) < std::tie(b.number, b.offset);
+  });
 }
 
 void SinumerikIndex::AddLine(const Program& program, TextPosition at) {
@@ -149,13 +144,15 @@ void SinumerikIndex::AddLine(const Program& program, TextPosition at) {
     sections_.back().begin = {block_.next, at.line + 1};
     return;
   }
-  if (head.number >= 0) numbers_[head.number].push_back(at);
-  if (!head.label.empty()) labels_[UpperName(head.label)].push_back(at);
+  if (head.number >= 0) {
+    numbers_.push_back({static_cast<std::uint32_t>(head.number), at.line, at.offset});
+  }
+  if (!head.label.empty()) labels_[UpperName(head.label)].push_back({0, at.line, at.offset});
   if (!head.structure) return;
   ParseSinumerikBlock(program, at.offset, at.line, &block_);
   if (block_.parts.empty()) return;
   const Kind kind = block_.parts.front().kind;
-  if (kind == Kind::kEndLabel) labels_["ENDLABEL"].push_back(at);
+  if (kind == Kind::kEndLabel) labels_["ENDLABEL"].push_back({0, at.line, at.offset});
   AddStructure(kind, at);
 }
 
@@ -220,38 +217,41 @@ const SinumerikSection& SinumerikIndex::SectionAt(std::size_t offset) const {
   return after == sections_.begin() ? *after : *(after - 1);
 }
 
-const std::vector<TextPosition>* SinumerikIndex::Places(std::string_view label) const {
-  const bool number =
+std::span<const SinumerikIndex::Place> SinumerikIndex::Places(std::string_view label) const {
+  const bool is_number =
       label.size() > 1 && IsDigit(label[1]) && (Upper(label[0]) == 'N' || label[0] == ':');
-  if (number) {
-    Scanner scanner(label, 1);
-    const auto found = numbers_.find(ReadDigits(&scanner));
-    return found == numbers_.end() || !scanner.AtEnd() ? nullptr : &found->second;
+  if (!is_number) {
+    const auto found = labels_.find(UpperName(label));
+    if (found == labels_.end()) return {};
+    return found->second;
   }
-  const auto found = labels_.find(UpperName(label));
-  return found == labels_.end() ? nullptr : &found->second;
+  Scanner scanner(label, 1);
+  const long number = scanner.ReadDigits();
+  if (number < 0 || !scanner.AtEnd()) return {};
+  const auto key = static_cast<std::uint32_t>(number);
+  const auto first = std::lower_bound(
+      numbers_.begin(), numbers_.end(), key,
+      [](const Place& place, std::uint32_t value) { return place.number < value; });
+  const auto last = std::upper_bound(
+      first, numbers_.end(), key,
+      [](std::uint32_t value, const Place& place) { return value < place.number; });
+  return {first, last};
 }
 
 std::optional<TextPosition> SinumerikIndex::FindForward(std::string_view label, std::size_t from,
                                                         std::size_t end) const {
-  const std::vector<TextPosition>* places = Places(label);
-  if (places == nullptr) return std::nullopt;
-  const auto found = std::lower_bound(
-      places->begin(), places->end(), from,
-      [](const TextPosition& place, std::size_t offset) { return place.offset < offset; });
-  if (found == places->end() || found->offset >= end) return std::nullopt;
-  return *found;
+  const std::span<const Place> places = Places(label);
+  const auto found = std::lower_bound(places.begin(), places.end(), from, IsBefore);
+  if (found == places.end() || found->offset >= end) return std::nullopt;
+  return TextPosition{found->offset, found->line};
 }
 
 std::optional<TextPosition> SinumerikIndex::FindBackward(std::string_view label, std::size_t begin,
                                                          std::size_t from) const {
-  const std::vector<TextPosition>* places = Places(label);
-  if (places == nullptr) return std::nullopt;
-  const auto after = std::lower_bound(
-      places->begin(), places->end(), from,
-      [](const TextPosition& place, std::size_t offset) { return place.offset < offset; });
-  if (after == places->begin() || (after - 1)->offset < begin) return std::nullopt;
-  return *(after - 1);
+  const std::span<const Place> places = Places(label);
+  const auto after = std::lower_bound(places.begin(), places.end(), from, IsBefore);
+  if (after == places.begin() || (after - 1)->offset < begin) return std::nullopt;
+  return TextPosition{(after - 1)->offset, (after - 1)->line};
 }
 
 const SinumerikPartner* SinumerikIndex::Partner(std::size_t offset) const {

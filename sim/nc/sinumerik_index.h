@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -53,6 +55,13 @@ class SinumerikIndex {
   const SinumerikPartner* Partner(std::size_t offset) const;
 
  private:
+  /// `number` of a block number; 0 for a label. Small, as long programs number every block.
+  struct Place {
+    std::uint32_t number;
+    int line;
+    std::size_t offset;
+  };
+  static bool IsBefore(const Place& place, std::size_t offset) { return place.offset < offset; }
   struct Open {
     SinumerikPartKind kind;
     TextPosition at;
@@ -61,11 +70,12 @@ class SinumerikIndex {
   void AddLine(const Program& program, TextPosition at);
   void AddStructure(SinumerikPartKind kind, TextPosition at);
   void Close(std::size_t end);
-  const std::vector<TextPosition>* Places(std::string_view label) const;
+  /// All places of a label or number, by offset.
+  std::span<const Place> Places(std::string_view label) const;
 
   std::vector<SinumerikSection> sections_;
-  std::map<std::string, std::vector<TextPosition>, std::less<>> labels_;  ///< By offset.
-  std::unordered_map<long, std::vector<TextPosition>> numbers_;
+  std::map<std::string, std::vector<Place>, std::less<>> labels_;
+  std::vector<Place> numbers_;  ///< By number, then offset.
   std::unordered_map<std::size_t, SinumerikPartner> partners_;
   std::vector<Open> open_;
   SinumerikBlock block_;

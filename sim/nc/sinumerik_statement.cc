@@ -18,7 +18,7 @@ struct Keyword {
   Kind kind;
 };
 /// By name.
-constexpr std::array<Keyword, 43> kKeywords = {{
+constexpr std::array<Keyword, 42> kKeywords = {{
     {"CALL", Kind::kCallName},
     {"CASE", Kind::kCase},
     {"CTABDEF", Kind::kUnsimulated},
@@ -56,7 +56,6 @@ constexpr std::array<Keyword, 43> kKeywords = {{
     {"RET", Kind::kReturn},
     {"RETB", Kind::kReturn},
     {"SETINT", Kind::kUnsimulated},
-    {"THEN", Kind::kElse},
     {"TO", Kind::kElse},
     {"UNTIL", Kind::kUntil},
     {"WHEN", Kind::kSynchronous},

@@ -17,7 +17,7 @@ constexpr bool IsNamePart(char c) { return IsNameStart(c) || IsDigit(c); }
 bool SameName(std::string_view name, std::string_view upper);
 std::string UpperName(std::string_view name);
 
-/// "12540": what the block is too long for; (NC programming 12/2019, p. 43: 512 characters).
+/// Characters of a block before its comment (NC programming 12/2019, p. 43).
 inline constexpr std::size_t kMaxSinumerikBlock = 512;
 /// NC programming 12/2019, p. 46: names have at most 31 characters.
 inline constexpr std::size_t kMaxSinumerikName = 31;

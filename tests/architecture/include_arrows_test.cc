@@ -45,6 +45,7 @@ const std::vector<Library> kLibraries = {
     {"urdf_model/", "sim/machine", 1},
     {"tinyxml2", "sim/machine", 2},
     {"toml\\+\\+|toml\\.hpp", "sim/base", 1},
+    {"xxhash", "sim/base", 1},
     {"CLI/", "sim/app", 1},
     {"nlohmann/", "sim/report", 1},
 };

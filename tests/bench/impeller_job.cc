@@ -78,25 +78,23 @@ class WindowSink : public control::RunSink {
 
   void OnMotion(const motion::Motion& motion) override {
     if (!going_) return;
-    const bool other_tool =
-        !window_.motions.empty() && window_.motions.back().facts.tool != motion.facts.tool;
-    if (other_tool || window_.motions.size() >= motion::kWindowSize) Flush();
-    window_.motions.push_back(motion);
+    OnWindow(windows_.Add(motion));
   }
   void OnFinding(Finding finding) override {
     if (finding.severity != Severity::kError) return;
     failed_ = true;
     std::fprintf(stderr, "line %d: %s\n", finding.where.line, finding.message.c_str());
   }
-  void Flush() {
-    if (going_ && !window_.motions.empty()) going_ = (*on_window_)(window_);
-    window_.motions.clear();
-  }
+  void Finish() { OnWindow(windows_.Take()); }
   bool failed() const { return failed_; }
 
  private:
+  void OnWindow(const motion::Window& window) {
+    if (going_ && !window.motions.empty()) going_ = (*on_window_)(window);
+  }
+
   const std::function<bool(const motion::Window&)>* on_window_;
-  motion::Window window_;
+  motion::WindowCutter windows_;
   bool going_ = true;
   bool failed_ = false;
 };
@@ -169,7 +167,7 @@ bool ForEachWindow(const BenchJob& job,
   std::vector<control::PartFrame> frames;
   WindowSink sink(on_window);
   control::RunProgram(program, job.machine, job.job, {job.job.tools}, &files, &frames, &sink);
-  sink.Flush();
+  sink.Finish();
   return !sink.failed();
 }
 

@@ -11,7 +11,7 @@
 #include "sim/machine/machine.h"
 #include "sim/machine/scene.h"
 #include "sim/machine/tool.h"
-#include "sim/motion/motion.h"
+#include "sim/motion/window.h"
 
 namespace ncsim::bench {
 
@@ -52,8 +52,8 @@ std::optional<BenchJob> MakeImpellerJob(const ImpellerSpec& spec, const std::str
 /// them, as for machine links.
 BenchJob WithToolAsMeshes(BenchJob job);
 
-/// Interprets the program and hands on its motions in windows of motion::kWindowSize, until
-/// `on_window` returns false. Returns false where the control reports an error.
+/// Interprets the program and hands on its motions in windows, until `on_window` returns false.
+/// Returns false where the control reports an error.
 bool ForEachWindow(const BenchJob& job,
                    const std::function<bool(const motion::Window&)>& on_window);
 

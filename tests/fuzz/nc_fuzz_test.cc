@@ -5,8 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <random>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +13,7 @@
 #include "sim/control/flow.h"
 #include "sim/nc/header_tools.h"
 #include "sim/nc/program.h"
+#include "tests/fuzz/mutate.h"
 
 namespace ncsim {
 namespace {
@@ -36,39 +35,7 @@ constexpr std::array<std::string_view, 28> kTokens = {
     "#0",  "O9",   "N5",  "%",      "\n",     "\r",     "/",     ";",   "SQRT[",
     "AND"};
 
-/// No std::uniform_int_distribution: its numbers differ between libraries.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : engine_(seed) {}
-  std::size_t Below(std::size_t limit) { return limit == 0 ? 0 : engine_() % limit; }
-
- private:
-  std::mt19937 engine_;
-};
-
-void Mutate(Random* random, std::string* text) {
-  const std::size_t at = random->Below(text->size() + 1);
-  switch (random->Below(6)) {
-    case 0:
-      text->insert(at, kTokens[random->Below(kTokens.size())]);
-      return;
-    case 1:
-      text->erase(at, random->Below(8));
-      return;
-    case 2:
-      if (at < text->size()) (*text)[at] = static_cast<char>(random->Below(256));
-      return;
-    case 3:
-      text->insert(at, text->substr(random->Below(text->size() + 1), random->Below(40)));
-      return;
-    case 4:
-      text->insert(at, kSeeds[random->Below(kSeeds.size())]);
-      return;
-    default:
-      text->insert(at, random->Below(30), "[(-#9X"[random->Below(6)]);
-      return;
-  }
-}
+const FuzzLanguage kLanguage = {kSeeds, kTokens, "[(-#9X"};
 
 class AnySystem : public control::SystemVariables {
  public:
@@ -136,7 +103,8 @@ TEST(NcFuzzTest, MutatedPrograms) {
   for (int i = 0; i < 50'000; ++i) {
     std::string text(kSeeds[random.Below(kSeeds.size())]);
     const std::size_t mutations = 1 + random.Below(6);
-    for (std::size_t m = 0; m < mutations && text.size() < 2000; ++m) Mutate(&random, &text);
+    for (std::size_t m = 0; m < mutations && text.size() < 2000; ++m)
+      Mutate(kLanguage, &random, &text);
     RunText(text);
     if (HasFailure()) {
       FAIL() << "iteration " << i << ", text:\n" << testing::PrintToString(text);
