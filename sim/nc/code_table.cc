@@ -5,22 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/nc/support_text.h"
+
 namespace ncsim::nc {
 namespace {
-
-std::string_view Text(Support support) {
-  switch (support) {
-    case Support::kSimulated:
-      return "simulated";
-    case Support::kNoMotionEffect:
-      return "no motion effect";
-    case Support::kUnsupported:
-      return "unsupported";
-    case Support::kRejected:
-      return "alarm";
-  }
-  return "";
-}
 
 std::string CodeName(const CodeSpec& spec) {
   const int whole = spec.number_x10 / 10;
@@ -47,11 +35,25 @@ std::string Row(const CodeSpec& spec) {
     row += (group.size() == 1 ? "0" + group : group) + (spec.is_default ? " *" : "") + " | ";
   }
   row += std::string(spec.meaning) + " | " + SpacedWords(spec.words) + " | ";
-  row += std::string(Text(spec.support)) + " | " + std::string(spec.note) + " |\n";
+  row += std::string(ToString(spec.support)) + " | " + std::string(spec.note) + " |\n";
   return row;
 }
 
 }  // namespace
+
+std::string_view ToString(Support support) {
+  switch (support) {
+    case Support::kSimulated:
+      return "simulated";
+    case Support::kNoMotionEffect:
+      return "no motion effect";
+    case Support::kUnsupported:
+      return "unsupported";
+    case Support::kRejected:
+      return "alarm";
+  }
+  return "";
+}
 
 const CodeSpec* Dialect::Find(char address, double number) const {
   constexpr double kHighest = 9999.0;

@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
+
+#include "sim/nc/sinumerik_coverage.h"
 
 namespace ncsim::nc {
 namespace {
@@ -56,6 +61,18 @@ TEST(SinumerikCommandsTest, StartState) {
   EXPECT_EQ(start.at(13), "G71");
   EXPECT_EQ(start.at(51), "ORIVECT");
   for (const int once : {2, 3, 9, 11, 62}) EXPECT_EQ(start.count(once), 0U) << once;
+}
+
+TEST(SinumerikCommandsTest, TheDocumentIsTheTable) {
+  const std::string path = std::string(NCSIM_SOURCE_DIR) + "/docs/dialects/sinumerik-840d.md";
+  const std::string table = SinumerikCoverageTable();
+  const char* update = std::getenv("NCSIM_UPDATE_DOCS");
+  if (update != nullptr && std::string(update) == "1") std::ofstream(path) << table;
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), table) << path << " is not what SinumerikCoverageTable() prints; run this "
+                               << "test with NCSIM_UPDATE_DOCS=1 to write it";
 }
 
 TEST(SinumerikCommandsTest, RowsAreInUpperCaseAndUnique) {
