@@ -24,7 +24,8 @@ Digest DigestOf(std::string_view bytes);
 std::string ToString(const Digest& digest);
 
 /// Of the program that runs and of every library that it has loaded when this is asked for the
-/// first time, their files byte by byte. nullopt where one of them cannot be read.
+/// first time, their files byte by byte, and of what the C library's functions take from the
+/// processor. nullopt where a file cannot be read.
 std::optional<Digest> DigestOfThisProgram();
 
 }  // namespace ncsim

@@ -130,9 +130,11 @@ class MotionWriter {
   }
   // A line leaves the arc's members unset.
   void operator()(const motion::TcpCurve& curve) {
-    const auto& [frame, q0, q1, arc, p0_B, p1_B, centre, e1, e2, pitch, end_error, radius, phi0,
-                 sweep] = curve;
+    const auto& [frame, great_circle, q0, q1, arc, p0_B, p1_B, centre, e1, e2, pitch, end_error,
+                 radius, phi0, sweep] = curve;
     PutFrame(frame.get());
+    // Which one it is follows from the control's axes and the rotary joints at its ends.
+    out_->Put(great_circle != nullptr);
     PutAll(q0, q1);
     out_->Put(arc);
     if (!arc) return PutAll(p0_B, p1_B);
