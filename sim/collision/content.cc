@@ -105,13 +105,14 @@ class MotionWriter {
   void Put(const motion::Motion& motion) {
     const auto& [kind, where, path, start_time, duration, facts] = motion;
     const auto& [feed, tcp, spindle_on, brake_conflict, exact_stop, tool, offset, cycle,
-                 names_linear, corner_rounding] = facts;
+                 names_linear, corner_rounding, orientation_tolerance, wrap_note] = facts;
     out_->Put(kind);
     out_->Put(path.index());
     std::visit(*this, path);
     out_->Put(spindle_on);
     PutCycle(cycle, cycle_, out_);
     out_->Put(corner_rounding);
+    out_->Put(orientation_tolerance);
   }
 
   void operator()(const motion::AxisLinear& line) {
