@@ -38,8 +38,10 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
           CompensationOptions(),
           [this](const Command& command) { parts_.to_motion->Execute(command); },
           [this](Finding finding) {
+            // Which corners compensation cannot go round is the other control's rule.
             const bool alarm = finding.severity == Severity::kError;
-            log_.Report(std::move(finding));
+            log_.ReportOnce("compensation", Rule::kUnsupportedCode, finding.where,
+                            "G41 or G42 was not simulated here: " + finding.message);
             if (alarm) log_.Stop();
           }),
       tool_(start_tool) {
