@@ -37,7 +37,7 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
       contour_(
           CompensationOptions(),
           [this](const Command& command) { parts_.to_motion->Execute(command); },
-          [this](Finding finding) {
+          [this](const Finding& finding) {
             // Which corners compensation cannot go round is the other control's rule.
             const bool alarm = finding.severity == Severity::kError;
             log_.ReportOnce("compensation", Rule::kUnsupportedCode, finding.where,
@@ -74,7 +74,7 @@ bool SinumerikInterpreter::Alarm(const SourcePosition& where, int number, std::s
 }
 
 void SinumerikInterpreter::Unsupported(std::string_view name, const SourcePosition& where,
-                                       std::string why) {
+                                       const std::string& why) {
   std::string text = std::string(name) + " was not simulated";
   if (!why.empty()) text += ": " + why;
   log_.ReportOnce(name, Rule::kUnsupportedCode, where, std::move(text));

@@ -129,7 +129,7 @@ class SinumerikInterpreter {
   void TakeAll();
   SourcePosition Where(const SinumerikItem& item) const;
   bool Alarm(const SourcePosition& where, int number, std::string text);
-  void Unsupported(std::string_view name, const SourcePosition& where, std::string why = "");
+  void Unsupported(std::string_view name, const SourcePosition& where, const std::string& why = "");
 
   // sinumerik_frames.cc
   // sinumerik_frames.cc
