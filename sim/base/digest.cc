@@ -3,9 +3,6 @@
 
 #include <link.h>
 #include <xxhash.h>
-#if defined(__x86_64__)
-#include <sys/platform/x86.h>
-#endif
 
 #include <algorithm>
 #include <limits>
@@ -13,6 +10,7 @@
 
 #include "sim/base/bytes.h"
 #include "sim/base/file.h"
+#include "sim/base/processor.h"
 
 namespace ncsim {
 
@@ -41,10 +39,8 @@ std::optional<Digest> DigestOfObjects() {
     if (!file.has_value()) return std::nullopt;
     for (const std::uint64_t word : DigestOf(*file).words) all.Put(word);
   }
-#if defined(__x86_64__)
   // The C library's sine has another last bit where the processor fuses multiplications.
-  all.Put(static_cast<std::uint8_t>(CPU_FEATURE_ACTIVE(FMA) ? 1 : 0));
-#endif
+  all.Put(HasFma());
   return DigestOf(all.bytes());
 }
 

@@ -164,8 +164,21 @@ TEST(SweepPropertyTest, NothingIsMissed) {
   EXPECT_GT(mesh_tally.clear, 8);
 }
 
-// Ways along the tool's axis, and beside it by what a post's rounding makes of them: a look at the
-// whole way settles those that are clear.
+// Along Z, now and then beside it by what a post's rounding makes of it.
+motion::Motion AlongTheAxis(motion::Random* random, const motion::TestMachine& machine) {
+  motion::JointVector q0(5);
+  q0 << random->Uniform(-50, 50), random->Uniform(-50, 50), random->Uniform(-50, 50),
+      random->Uniform(-1, 2), random->Uniform(-3, 3);
+  motion::JointVector q1 = q0;
+  q1[2] += random->Uniform(-90, 90);
+  if (random->Chance(0.5)) q1[random->Below(2)] += random->Uniform(-0.009, 0.009);
+  if (random->Chance(0.4)) return motion::MakeMotion(motion::AxisLinear{q0, q1});
+  motion::Motion motion = motion::MakeMotion(motion::RandomDogLeg(random, machine.tree, q0, q1));
+  motion.kind = motion::MotionKind::kRapid;
+  return motion;
+}
+
+// A look at the whole way settles those that are clear.
 TEST(SweepPropertyTest, AlongTheAxisNothingIsMissed) {
   motion::Random random(9);
   const motion::TestMachine machine = kinematics::TrunnionBC({10, 0, -40}, {10, 5, 0});
@@ -183,17 +196,7 @@ TEST(SweepPropertyTest, AlongTheAxisNothingIsMissed) {
   int at_once = 0;
   for (int i = 0; i < 400; ++i) {
     const auto& a = bodies[i % 2];
-    motion::JointVector q0(5);
-    q0 << random.Uniform(-50, 50), random.Uniform(-50, 50), random.Uniform(-50, 50),
-        random.Uniform(-1, 2), random.Uniform(-3, 3);
-    motion::JointVector q1 = q0;
-    q1[2] += random.Uniform(-90, 90);
-    if (random.Chance(0.5)) q1[random.Below(2)] += random.Uniform(-0.009, 0.009);
-    motion::Motion motion = motion::MakeMotion(motion::AxisLinear{q0, q1});
-    if (random.Chance(0.6)) {
-      motion = motion::MakeMotion(motion::RandomDogLeg(&random, machine.tree, q0, q1));
-      motion.kind = motion::MotionKind::kRapid;
-    }
+    const motion::Motion motion = AlongTheAxis(&random, machine);
     const motion::JointVector q = motion.At(random.Uniform(0.0, 1.0));
     const Eigen::Isometry3d X_BS = machine.tree.Pose(machine.table_link, q).inverse() *
                                    machine.tree.Pose(machine.spindle_link, q);

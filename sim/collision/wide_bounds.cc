@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/collision/wide_bounds.h"
 
-#if defined(__x86_64__)
-#include <sys/platform/x86.h>
-#endif
-
+#include "sim/base/processor.h"
 #include "sim/collision/wide_bounds_lanes.h"
 
 namespace ncsim::collision {
 
 const WideBounds kWideBaseline = {WideKernel<4>::Boxes, WideKernel<4>::Triangles};
-
-bool HasAvx2() {
-#if defined(__x86_64__)
-  // As the C library sees it, so that GLIBC_TUNABLES shows what another processor would do.
-  return CPU_FEATURE_ACTIVE(AVX2);
-#else
-  return false;
-#endif
-}
 
 namespace {
 const WideBounds& Best() {

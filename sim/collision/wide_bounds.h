@@ -58,6 +58,5 @@ struct WideBounds {
 };
 extern const WideBounds kWideBaseline;  ///< Four lanes.
 extern const WideBounds kWideAvx2;      ///< Eight lanes; only where the processor has AVX2.
-bool HasAvx2();
 
 }  // namespace ncsim::collision

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/processor.h"
 #include "sim/collision/test_shapes.h"
 #include "sim/collision/triangle_tree.h"
 #include "sim/collision/wide_shape.h"

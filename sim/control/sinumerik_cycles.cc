@@ -29,7 +29,6 @@ void SinumerikInterpreter::HighSpeedSettings(std::span<const nc::SinumerikValue>
   contour_tolerance_ = std::max(0.0, arguments[0].number * mm_);
   if (type / 10 % 10 == 1 && given(2)) {
     orientation_tolerance_ = std::max(0.0, Radians(arguments[2].number));
-    log_.NotChecked("orientation within the tolerance of CYCLE832");
   } else if (traori_) {
     Unsupported("CYCLE832 without an orientation tolerance under TRAORI", where,
                 "SD55441 to SD55443 make it from the contour's");

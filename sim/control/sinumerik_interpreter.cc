@@ -259,6 +259,13 @@ void SinumerikInterpreter::UpdateTolerance() {
   command_.exact_stop = stops && !smooths && !compresses;
   command_.corner_rounding = contour_tolerance_;
   command_.orientation_tolerance = smooths ? orientation_tolerance_ : otol_.value_or(0.0);
+  if (traori_ && command_.orientation_tolerance > 0.0) {
+    // Bodies are not widened by what the tool may lean.
+    log_.Assume("orientation tolerance",
+                "the tool axis is taken as programmed; smoothing may turn it by up to " +
+                    Short(Degrees(command_.orientation_tolerance), 3) + " deg",
+                true);
+  }
   if (smooths || command_.exact_stop) return;
   if (Is(kSinExactStop, "G641") && !compresses) {
     command_.corner_rounding = adis_.value_or(0.0);

@@ -120,6 +120,10 @@ TEST(SinumerikTraori, Cycle832SetsTolerancesUntilItIsSwitchedOff) {
       std::string(kStart) + "CYCLE832(0.01,_ORI_ROUGH,1)\nG1 F500 X1\nCYCLE832()\nX2\n");
   EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.01, 1e-12) << run.Text();
   EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(1.0), 1e-12);
+  // What may lean and is not widened by it is doubt.
+  EXPECT_TRUE(std::any_of(
+      run.summary.assumptions.begin(), run.summary.assumptions.end(),
+      [](const Assumption& a) { return a.name == "orientation tolerance" && a.places_metal; }));
   EXPECT_EQ(run.Last(7).facts.corner_rounding, 0.0);
 }
 
