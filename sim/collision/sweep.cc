@@ -288,12 +288,13 @@ SweepResult PairSweep::Pass(double clearance, Sweep* sweep) {
   return sweep->result;
 }
 
-// At the end of a motion without contact, clear by `clearance` there. Where nothing in reach is
-// contact, the pair may be inside each other by now.
+// At the end of a motion without contact, clear by `clearance` there. Where even the greatest depth
+// is no contact, the pair may be inside each other by now.
 void PairSweep::Arrive(double clearance, const Sweep& sweep) {
   known_.clearance = clearance;
   known_.q = sweep.motion->q1();
-  if (sweep.watch.contact <= engine_->floor()) known_.outside = false;
+  const double contact = sweep.watch.contact;
+  if (contact < 0.0 && contact <= engine_->floor()) known_.outside = false;
   if (sweep.watch.track) least_.lower = std::min(least_.lower, clearance);
 }
 
