@@ -25,6 +25,7 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"sim/checks", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
     {"sim/collision", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
     {"sim/control", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
+    {"post", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
     {"sim/report",
      {"sim/base", "kinematics", "sim/machine", "sim/motion", "sim/checks", "sim/collision"}},
     {"sim/app",
