@@ -147,7 +147,7 @@ void NcWriter::TakeModal(const ClModal& modal) {
     wanted_[static_cast<std::size_t>(Group::kComp)] = off ? &*off : nullptr;
   } else {
     const std::optional<int> number =
-        comp.length_register.value_or(0) > 0 ? comp.length_register : modal.tool->number;
+        comp.diameter_register.value_or(0) > 0 ? comp.diameter_register : modal.tool->number;
     if (number) values_.Set(Value::kCompRegister, static_cast<double>(*number));
     if (comp.side == Side::kOn) {
       Problem("CUTCOM/ON does not say which side");

@@ -35,9 +35,7 @@ void NcWriter::SetHole(const PlanHole& hole) {
   if (!cycle.steps.empty()) values_.Set(Value::kHoleStep, cycle.steps.back() / unit);
   values_.Clear(Value::kHolePitch);
   const double speed = values_.number(Value::kSpeed).value_or(0.0);
-  if (cycle.pitch) {
-    values_.Set(Value::kHolePitch, *cycle.pitch / unit);
-  } else if (cycle.kind == ClCycleKind::kTap && cycle.feed.per_revolution) {
+  if (cycle.kind == ClCycleKind::kTap && cycle.feed.per_revolution) {
     values_.Set(Value::kHolePitch, cycle.feed.value / unit);
   } else if (cycle.kind == ClCycleKind::kTap && speed > 0.0) {
     values_.Set(Value::kHolePitch, cycle.feed.value * 60.0 / speed / unit);
