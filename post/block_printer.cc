@@ -29,7 +29,8 @@ bool IsVerbatim(Value value) { return value >= Value::kText; }
 struct BlockPrinter::Line {
   std::string text;
   bool has_names = false;
-  bool printed = false;
+  bool printed = false;  ///< One of them.
+  bool stays = false;    ///< One that counts.
   bool swallow = false;  ///< The blank behind a name that printed nothing goes with it.
 };
 
@@ -68,7 +69,7 @@ class BlockPrinter::Run {
 
   void EndLine() {
     together_.clear();
-    if (line_.has_names && !line_.printed) {
+    if (line_.has_names && !line_.stays) {
       printer_.memory_ = before_;
       return;
     }
@@ -116,7 +117,8 @@ class BlockPrinter::Run {
     line_.has_names = true;
     line_.swallow = false;
     line_.text += text;
-    line_.printed = line_.printed || counts;
+    line_.printed = true;
+    line_.stays = line_.stays || counts;
   }
 
   void AddWord(const TemplateNode& node) {

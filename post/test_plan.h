@@ -15,10 +15,9 @@
 
 namespace ncsim::post {
 
-inline std::string PostText(const std::string& path) {
+inline std::string ShippedPost(const std::string& path) {
   std::string reason;
-  return ReadFile(std::string(NCSIM_SOURCE_DIR) + "/models/" + path, 1 << 20, &reason)
-      .value_or("");
+  return ReadFile(std::string(NCSIM_SOURCE_DIR) + "/models/" + path, 1 << 20, &reason).value_or("");
 }
 inline const char* const kUmc750 = "haas_umc750/umc750.post.toml";
 inline const char* const kBcTable = "bc_table_840d/bc_table_840d.post.toml";
@@ -99,8 +98,8 @@ class TestPlan {
     move.time = time;
     return Add(move);
   }
-  TestPlan& Arc(const PlanPose& end, const Eigen::Vector3d& centre, bool clockwise,
-                int turns = 0, double feed = 600.0) {
+  TestPlan& Arc(const PlanPose& end, const Eigen::Vector3d& centre, bool clockwise, int turns = 0,
+                double feed = 600.0) {
     PlanMove move;
     move.end = end;
     move.feed.value = feed / 60.0;

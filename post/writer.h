@@ -126,9 +126,9 @@ class NcWriter : public PlanSink {
 
   struct ActiveCycle {
     std::shared_ptr<const ClHoleCycle> cycle;
-    const std::string* returns = nullptr;  ///< The code of Group::kReturn.
-    double level = 0.0;                    ///< Where the tool is between holes.
-    double reference = 0.0;                ///< Of the hole.
+    bool to_clearance = false;
+    double level = 0.0;      ///< Where the tool is between holes.
+    double reference = 0.0;  ///< Of the hole.
   };
   std::optional<ActiveCycle> cycle_;
 };

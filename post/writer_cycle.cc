@@ -14,7 +14,7 @@ void NcWriter::EndCycle() {
   cycle_.reset();
   Emit(Block::kCycleEnd);
   // Where the cycle has left the axis of the tool is no word that was printed.
-  printer_.ForgetPositions();
+  for (const Value value : {Value::kX, Value::kY, Value::kZ}) printer_.Forget(value);
   printer_.Forget(Group::kMotion);
 }
 
@@ -62,18 +62,19 @@ void NcWriter::SetHole(const PlanHole& hole) {
   SetPoint(bottom);
   Want(Group::kPlane, KeyOf(hole.plane));
   Want(Group::kMotion, "rapid");
-  Want(Group::kReturn, to_clearance ? "clearance" : "initial");
+  // A modal call has its level among its arguments.
+  if (!data_.modal_call) Want(Group::kReturn, to_clearance ? "clearance" : "initial");
 }
 
 bool NcWriter::GoesOn(const PlanHole& hole, double level) const {
   if (!cycle_ || cycle_->cycle != hole.hole.cycle) return false;
-  const auto group = static_cast<std::size_t>(Group::kReturn);
-  if (cycle_->returns != wanted_[group]) return false;
+  const bool to_clearance = hole.hole.level == ClHole::Level::kClearance;
+  if (to_clearance != cycle_->to_clearance) return false;
   const double half = 0.5 * data_.Increment(Value::kZ);
   const double reference = *values_.number(Value::kHoleReference);
   const bool same_height = std::abs(reference - cycle_->reference) < half;
   if (data_.modal_call) return same_height && std::abs(level - cycle_->level) < half;
-  if (hole.hole.level != ClHole::Level::kClearance) return std::abs(level - cycle_->level) < half;
+  if (!to_clearance) return std::abs(level - cycle_->level) < half;
   // The axis of the tool goes to another clearance only after the others: not where that is higher.
   const double up = hole.negative ? -1.0 : 1.0;
   return up * (level - cycle_->level) < half;
@@ -123,7 +124,7 @@ void NcWriter::Handle(const PlanHole& hole) {
     BeginCycle(hole, along, level);
     SetHole(hole);
     EmitTemplate(*begin, BlockPrinter::Counts::kAnything);
-    cycle_ = ActiveCycle{hole.hole.cycle, wanted_[static_cast<std::size_t>(Group::kReturn)], level,
+    cycle_ = ActiveCycle{hole.hole.cycle, hole.hole.level == ClHole::Level::kClearance, level,
                          *values_.number(Value::kHoleReference)};
     if (data_.modal_call) Emit(Block::kHole);
   } else if (!Emit(Block::kHole)) {

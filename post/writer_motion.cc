@@ -107,9 +107,8 @@ void NcWriter::CheckPrinted(Block block) {
             std::string(GroupTable()[static_cast<std::size_t>(group)].name) + "}");
   };
   check(Group::kMotion);
-  check(Group::kComp);
+  check(block == Block::kArc ? Group::kPlane : Group::kComp);
   if (block != Block::kRapid) check(Group::kFeedMode);
-  if (block == Block::kArc) check(Group::kPlane);
 }
 
 void NcWriter::Handle(const PlanMove& move) {
