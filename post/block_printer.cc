@@ -314,6 +314,15 @@ void BlockPrinter::Forget(Value value) {
 
 void BlockPrinter::Forget(Group group) { memory_.codes[static_cast<std::size_t>(group)].clear(); }
 
+void BlockPrinter::AxisIs(const Values& values) {
+  for (std::size_t i = 0; i < data_.words.size(); ++i) {
+    const WordFormat& word = data_.words[i];
+    if (word.value >= Value::kAxisX && word.value <= Value::kAxisZ) {
+      memory_.words[i] = TextOf(word, values);
+    }
+  }
+}
+
 void BlockPrinter::SwitchedOff() {
   Forget(Value::kSpeed);
   for (const Group group : {Group::kSpindle, Group::kCoolant}) {

@@ -37,6 +37,8 @@ class BlockPrinter {
   void ForgetFeeds();
   void Forget(Value value);
   void Forget(Group group);
+  /// The tool axis is there, by other words.
+  void AxisIs(const Values& values);
   /// Spindle and coolant are off.
   void SwitchedOff();
   /// Whether the control has the wanted code of a group (where one is wanted).

@@ -60,15 +60,18 @@ struct PlanMove {
 struct PlanIndex {
   std::array<double, 2> rotary{};
   PlanMode mode = PlanMode::kIndexed;
-  /// The turned plane in P: its directions in columns. kIndexed only.
+  /// The turned plane in P: its directions in columns. kTcp: those of the machine, as the rotary
+  /// axes have turned P under them. Not of kAxes.
   Eigen::Matrix3d plane_P = Eigen::Matrix3d::Identity();
-  PlanPose approach;  ///< The first pose of the motions that follow.
+  /// The first pose of the motions that follow. kRewind: `retract` above where the feed goes on; the
+  /// moves out to there and back are steps of their own.
+  PlanPose approach;
   enum class Why : std::uint8_t {
     kOperation,  ///< An operation begins, with its tool in the spindle.
     kAxis,       ///< A rapid of the file changes the tool axis.
     kRewind,     ///< A rotary axis is at its limit, or the other branch goes on: in a feed.
   } why = Why::kOperation;
-  /// kRewind: where the tool leaves the part along its axis before it turns; mm along the axis.
+  /// kRewind: mm along the tool axis.
   double retract = 0.0;
 };
 

@@ -29,6 +29,7 @@ enum class Block : std::uint8_t {
   kToolTableFoot,
   kToolChange,
   kOperationStart,
+  kSafeStart,
   kOperationEnd,
   kCallOperation,
   kFileStart,

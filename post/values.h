@@ -19,12 +19,11 @@ enum Scope : unsigned {
   kMotion = 1U << 2,
   kHole = 1U << 3,
   kPosition = 1U << 4,  ///< Index and rewind.
-  kRewind = 1U << 5,
-  kDwellBlock = 1U << 6,
-  kTextBlock = 1U << 7,
-  kCodeBlock = 1U << 8,
-  kFunction = 1U << 9,
-  kAll = (1U << 10) - 1,
+  kDwellBlock = 1U << 5,
+  kTextBlock = 1U << 6,
+  kCodeBlock = 1U << 7,
+  kFunction = 1U << 8,
+  kAll = (1U << 9) - 1,
 };
 
 enum class ValueKind : std::uint8_t {

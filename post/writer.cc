@@ -214,19 +214,26 @@ void NcWriter::Leave() {
 }
 
 void NcWriter::Handle(const PlanOperation& operation) {
-  Leave();
-  EndFile();
-  printer_.ForgetAll();
-  mode_ = data_.Mode(operation.mode, info_.mode);
-  if (mode_ == nullptr) Problem("the post has no mode of the kind that this operation needs");
-  if (open_operation_) BeginFile();
+  EndCycle();
+  const PostMode* mode = data_.Mode(operation.mode, info_.mode);
+  if (mode == nullptr) Problem("the post has no mode of the kind that this operation needs");
+  // Else it goes on where the last one has left the tool.
+  const bool anew = operation.tool_change || mode != mode_ || !positioned_;
+  if (anew) {
+    Leave();
+    EndFile();
+    printer_.ForgetAll();
+    mode_ = mode;
+    if (open_operation_) BeginFile();
+  }
   Emit(Block::kOperationStart);
+  if (anew) Emit(Block::kSafeStart);
+  if (!operation.tool_change) return;
+  if (!values_.number(Value::kToolNumber)) Problem("a tool change without a tool number");
   values_.Clear(Value::kNextTool);
   if (operation.next_tool) {
     values_.Set(Value::kNextTool, static_cast<double>(*operation.next_tool));
   }
-  if (!operation.tool_change) return;
-  if (!values_.number(Value::kToolNumber)) Problem("a tool change without a tool number");
   Emit(Block::kToolChange);
   printer_.ForgetPositions();
   printer_.ForgetFeeds();
@@ -257,29 +264,10 @@ void NcWriter::SetPlaneAngles(const Eigen::Matrix3d& plane_P) {
   values_.Set(Value::kPlaneZyxZ, zyx ? Degrees(std::atan2(r(1, 0), r(0, 0))) : 0.0);
 }
 
-void NcWriter::SetRewind(const PlanIndex& index) {
-  const auto along = [&](const PlanPose& pose) -> Eigen::Vector3d {
-    const bool tcp = index.mode == PlanMode::kTcp;
-    const Eigen::Vector3d axis = tcp ? pose.axis_P : Eigen::Vector3d::UnitZ();
-    return (pose.xyz + index.retract * axis) / data_.unit_mm();
-  };
-  values_.Clear(Value::kFeedPerRevolution);
-  values_.Clear(Value::kFeedInverse);
-  values_.Set(Value::kFeedPerMinute, last_feed_);
-  const Eigen::Vector3d leave = along(pose_), back = along(index.approach);
-  values_.Set(Value::kLeaveX, leave.x());
-  values_.Set(Value::kLeaveY, leave.y());
-  values_.Set(Value::kLeaveZ, leave.z());
-  values_.Set(Value::kReturnX, back.x());
-  values_.Set(Value::kReturnY, back.y());
-  values_.Set(Value::kReturnZ, back.z());
-}
-
 void NcWriter::Handle(const PlanIndex& index) {
   const bool rewind = index.why == PlanIndex::Why::kRewind;
   if (rewind) {
     EndCycle();
-    SetRewind(index);
     if (data_.Find(Block::kRewind, mode_) == nullptr) Problem("the post has no block 'rewind'");
   } else {
     Leave();
@@ -302,6 +290,7 @@ void NcWriter::Handle(const PlanIndex& index) {
   Want(Group::kPlane, "xy");
   Want(Group::kFeedMode, "per_minute");
   Emit(rewind ? Block::kRewind : Block::kIndex);
+  printer_.AxisIs(values_);
   positioned_ = true;
   Arrive(pose);
 }

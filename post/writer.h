@@ -70,7 +70,6 @@ class NcWriter : public PlanSink {
   void Switch();
   void Apply(const PostText& text, const std::string& comment);
   void SetPlaneAngles(const Eigen::Matrix3d& plane_P);
-  void SetRewind(const PlanIndex& index);
 
   // writer_motion.cc
   void SetPose(const PlanPose& pose);
@@ -121,8 +120,6 @@ class NcWriter : public PlanSink {
   PlanPose pose_;            ///< Where the plan is.
   Eigen::Vector3d here_ =
       Eigen::Vector3d::Zero();  ///< Where the control is: in the program's unit.
-
-  std::optional<double> last_feed_;  ///< Per minute.
 
   struct ActiveCycle {
     std::shared_ptr<const ClHoleCycle> cycle;

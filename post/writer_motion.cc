@@ -90,7 +90,6 @@ void NcWriter::SetFeed(const ClFeed& feed, double time, bool turns) {
   } else {
     Want(Group::kFeedMode, "per_minute");
   }
-  if (!feed.per_revolution) last_feed_ = feed.value * kSeconds / data_.unit_mm();
   values_.Set(used, number);
   if (data_.FindWord(used) == nullptr) {
     Problem("the post has no word for " + std::string(Info(used).name));

@@ -152,28 +152,36 @@ TEST(WriterTest, InverseTimeWhereARotaryAxisTurns) {
               ElementsAre("G93 G01 X1. B12. F80.", "G94 Y1. F600.", "G93 B13. C5. F45000."));
 }
 
-TEST(WriterTest, ARewindLeavesAlongTheToolAndComesBack) {
+TEST(WriterTest, ARewindTurnsAboveThePart) {
+  // The planner has left the part along the tool, and comes back: the block turns up there.
   TestPlan plan;
-  PlanPose at = Pose(10, 0, 0, 90, 350);
+  PlanPose at = Pose(35, 0, 0, 90, 350);
   at.axis_P = Eigen::Vector3d::UnitX();
   plan.Begin(PlanMode::kTcp, at);
-  plan.Feed(at, 500.0);
   PlanIndex rewind;
   rewind.why = PlanIndex::Why::kRewind;
   rewind.mode = PlanMode::kTcp;
   rewind.rotary = {Radians(90.0), Radians(-10.0)};
   rewind.approach = at;
-  rewind.retract = 25.0;
   // The plane that faces the tool at B90 C-10: Rz(C) Ry(B).
   rewind.plane_P = (Eigen::AngleAxisd(Radians(-10.0), Eigen::Vector3d::UnitZ()) *
                     Eigen::AngleAxisd(Radians(90.0), Eigen::Vector3d::UnitY()))
                        .toRotationMatrix();
-  plan.Add(rewind);
+  plan.Add(rewind).Feed(Pose(10, 0, 0, 90, -10), 500.0);
   const auto lines = plan.Write(ShippedPost(kUmc750));
-  EXPECT_THAT(
-      Behind(lines, "(REWIND)"),
-      ElementsAre("G01 X35. Y0. Z0. F500.", "G53 G00 Z0.", "G49", "G00 B90. C-10.", "G254",
-                  "G00 X0. Y1.736", "G255", "G00 G234 H03 X35. Y0. Z0.", "G01 X10. Y0. Z0. F500."));
+  // At (35, 0, 0) with C-10, Y of the machine is 35 sin 10.
+  EXPECT_THAT(Behind(lines, "(REWIND)"),
+              ElementsAre("G53 G00 Z0.", "G49", "G00 B90. C-10.", "G254", "G00 X0. Y6.078", "G255",
+                          "G00 G234 H03 X35. Y0. Z0.", "G01 X10. F500."));
+}
+
+TEST(WriterTest, AnOperationMayGoOnWhereTheLastOneEnds) {
+  TestPlan plan;
+  plan.Begin(PlanMode::kIndexed, Pose(0, 0, 5)).Feed(Pose(1, 0, 5));
+  PlanOperation same;
+  plan.Add(same).Feed(Pose(2, 0, 5));
+  EXPECT_THAT(Behind(plan.Write(ShippedPost(kUmc750)), "G43 H03 Z5."),
+              ElementsAre("G01 X1. F600.", "", "(FINISH)", "X2."));
 }
 
 TEST(WriterTest, CompensationBeginsAndEndsWithALine) {
@@ -219,13 +227,13 @@ TEST(WriterTest, VectorWordsPrintTogether) {
   PlanPose at = Pose(0, 0, 50, 90, 0);
   at.axis_P = {0.6, 0.0, 0.8};
   plan.Begin(PlanMode::kTcp, at);
-  plan.Feed(at);
+  plan.Feed(at);  // where B and C have brought it
   at.xyz.x() = 1.0;
   plan.Feed(at);
   at.axis_P = {0.6, 0.8, 0.0};
   plan.Feed(at);
   EXPECT_THAT(Behind(plan.Write(ShippedPost(kBcTable), {}, "vectors"), "G0 X0. Y0. Z50."),
-              ElementsAre("G1 A3=.6 B3=0. C3=.8 F600.", "X1.", "A3=.6 B3=.8 C3=0."));
+              ElementsAre("G1 X1. F600.", "A3=.6 B3=.8 C3=0."));
 }
 
 TEST(WriterTest, PlaneAnglesOfCycle800AndRot) {
