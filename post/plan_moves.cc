@@ -73,9 +73,8 @@ class Subdivision {
                        kOfTolerance * options_.angle_tolerance) {
         return false;
       }
-      const Eigen::Vector3d tip =
-          bows ? geometry_.TipOfAxes(xyz_a + s * (xyz_b - xyz_a), rotary)
-               : Eigen::Vector3d(tip_a + s * (tip_b - tip_a));
+      const Eigen::Vector3d tip = bows ? geometry_.TipOfAxes(xyz_a + s * (xyz_b - xyz_a), rotary)
+                                       : Eigen::Vector3d(tip_a + s * (tip_b - tip_a));
       if ((tip - curve_.Tip(t)).norm() > kOfTolerance * options_.tolerance) return false;
     }
     return true;

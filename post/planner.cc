@@ -121,7 +121,7 @@ class Planner::State {
   PlanSink* sink_;
   std::vector<PlanChoice> choices_;
   Events buffer_, waiting_;
-  bool has_work_ = false;  ///< Of the buffer.
+  bool has_work_ = false;                  ///< Of the buffer.
   std::optional<Eigen::Isometry3d> X_AP_;  ///< P in the absolute system, from the first MSYS.
   // What the machine does.
   PlanMode mode_ = PlanMode::kIndexed;
@@ -176,18 +176,17 @@ PlanMode Planner::State::ModeOf(const std::vector<Work>& works) const {
   return PlanMode::kIndexed;
 }
 
-bool Planner::State::ModeFits(const Events& events, const std::vector<Work>& works,
-                              PlanMode mode) {
+bool Planner::State::ModeFits(const Events& events, const std::vector<Work>& works, PlanMode mode) {
   for (const Work& work : works) {
-    const bool turns =
-        !work.rapid && work.start && !SameAxis(work.start->axis_M, work.end.axis_M);
+    const bool turns = !work.rapid && work.start && !SameAxis(work.start->axis_M, work.end.axis_M);
     if (turns && mode == PlanMode::kIndexed) {
       Error(events[work.event].where,
             "a feed turns the tool axis, and this mode holds the rotary axes still");
       return false;
     }
     if (turns && geometry_.num_rotary() == 0) {
-      Error(events[work.event].where, "a feed turns the tool axis on a machine without rotary axes");
+      Error(events[work.event].where,
+            "a feed turns the tool axis on a machine without rotary axes");
       return false;
     }
     if (work.hole && !options_.abilities[static_cast<std::size_t>(mode)].holes) {
@@ -230,8 +229,8 @@ void Planner::State::Plan(const Events& events, const std::optional<int>& next_t
     while (first < works.size()) {
       std::size_t last = first + 1;
       // A rapid that turns the tool begins a section: the machine retracts for it.
-      while (last < works.size() && (!works[last].rapid || SameAxis(works[last].end.axis_M,
-                                                                    works[last - 1].end.axis_M))) {
+      while (last < works.size() &&
+             (!works[last].rapid || SameAxis(works[last].end.axis_M, works[last - 1].end.axis_M))) {
         ++last;
       }
       if (!PlanSection(events, works, first, last)) return;
@@ -308,8 +307,7 @@ bool Planner::State::Move(const ClEvent& event, const Work& work, const Rotary& 
     PlanHole hole;
     hole.hole = std::get<ClHole>(event.what);
     hole.point = PoseAt(geometry_, frame(), work.end, to);
-    const Eigen::Vector3d axis =
-        geometry_.Directions(mode_, frame().plane_P, to) * work.end.axis_M;
+    const Eigen::Vector3d axis = geometry_.Directions(mode_, frame().plane_P, to) * work.end.axis_M;
     int along = 2;
     axis.cwiseAbs().maxCoeff(&along);
     if (std::abs(axis[along]) < 1.0 - 1e-6) {

@@ -27,11 +27,11 @@ struct PlanAbilities {
 struct PlanOptions {
   /// None: an operation whose feeds keep the tool axis is kIndexed, another kTcp.
   std::optional<PlanMode> mode;
-  bool turned_planes = false;  ///< kIndexed in the plane's own directions (CYCLE800).
-  std::array<PlanAbilities, 3> abilities;     ///< By PlanMode.
-  double tolerance = 0.004;                   ///< mm: chords, and tips that bow.
+  bool turned_planes = false;              ///< kIndexed in the plane's own directions (CYCLE800).
+  std::array<PlanAbilities, 3> abilities;  ///< By PlanMode.
+  double tolerance = 0.004;                ///< mm: chords, and tips that bow.
   double angle_tolerance = 0.005 * 0.01745329;  ///< rad: tool axes that leave their great circle.
-  double rewind_retract = 50.0;               ///< mm along the tool axis.
+  double rewind_retract = 50.0;                 ///< mm along the tool axis.
   /// By ClOperation::index: which of the ranked ways to follow its axes (0: the best). Beyond the
   /// last: the last.
   std::map<int, std::size_t> choice;

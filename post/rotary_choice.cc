@@ -13,9 +13,7 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSame = 1e-9;  // rad
 
-double Distance(const Rotary& a, const Rotary& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1]);
-}
+double Distance(const Rotary& a, const Rotary& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 double Travel(const Rotary& a, const Rotary& b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]);
