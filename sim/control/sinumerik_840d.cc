@@ -26,6 +26,7 @@ MotionOptions ToMotionOptions() {
   options.track_tcp_rapids = true;
   options.rotary_follows = true;
   options.slows_down = true;
+  options.rounds_rapids = true;
   return options;
 }
 

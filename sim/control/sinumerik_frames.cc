@@ -23,16 +23,25 @@ bool IsIdentity(const Eigen::Matrix3d& linear) {
 
 }  // namespace
 
-bool SinumerikInterpreter::Programmable::is_zero() const {
-  return IsIdentity(linear) && shift.isZero(0.0) && rotary == std::array<double, 3>{};
-}
-
 void SinumerikInterpreter::SelectOffset(int index) {
   modal_.offset = std::max(0, index);
   modal_.settable = parts_.registers->frame(modal_.offset);
   cancelled_.clear();
   new_frame_ = true;
   frame_dirty_ = true;
+}
+
+/// $P_PFRAME = ...: at once.
+void SinumerikInterpreter::SetProgramFrame(const AffineFrame& frame) {
+  modal_.program = frame;
+  new_frame_ = frame_dirty_ = true;
+}
+
+/// $P_IFRAME = ...: likewise, without a change of what $P_UIFR keeps.
+void SinumerikInterpreter::SetActiveSettable(const SettableFrame& frame) {
+  modal_.settable = frame;
+  cancelled_.clear();
+  new_frame_ = frame_dirty_ = true;
 }
 
 /// TRAORI and TRAFOOF move nothing; the frame goes by MD10602, the tool length is taken over.
@@ -68,7 +77,7 @@ void SinumerikInterpreter::CancelFrame(bool traori, const SourcePosition& where)
 }
 
 Frame SinumerikInterpreter::MakeFrame() const {
-  const Programmable& program = modal_.program;
+  const AffineFrame& program = modal_.program;
   const Eigen::Matrix3d settable = modal_.settable.Linear();
   Frame frame;
   frame.offset = modal_.settable.shift();
@@ -78,7 +87,7 @@ Frame SinumerikInterpreter::MakeFrame() const {
   frame.program.linear = settable * program.linear;
   frame.program.to = settable * program.shift;
   frame.program.active = !IsIdentity(frame.program.linear) || !frame.program.to.isZero(0.0);
-  frame.tool_length = active_.length;
+  ApplyLength(&frame, active_.length);
   if (traori_) frame.rotation = Frame::Rotation::kTcp;
   return frame;
 }
@@ -89,7 +98,7 @@ Frame SinumerikInterpreter::SuppressedFrame() const {
   frame.offset_index = parts_.part_frames->Index(SinumerikRegisters::FrameName(0), frame.offset);
   const bool without_length = (settings_.suppress_length & 1) != 0 &&
                               ((settings_.suppress_length & 2) == 0 || !edge_in_block_);
-  frame.tool_length = without_length ? 0.0 : active_.length;
+  ApplyLength(&frame, without_length ? 0.0 : active_.length);
   if (traori_) frame.rotation = Frame::Rotation::kTcp;
   return frame;
 }
@@ -115,6 +124,9 @@ void SinumerikInterpreter::RefreshFrame() {
   if (frame_->offset_index >= kMaxPartFrames) {
     log_.Alarm(Rule::kUnsupportedCode, step_->where, "too many different work offsets in one run");
   }
+  if (traori_ && frame_->program.linear.determinant() < 0.0) {
+    Unsupported("mirroring under TRAORI", step_->where);
+  }
   if (new_frame_) offset_checked_ = false;
   frame_dirty_ = new_frame_ = new_length_ = false;
 }
@@ -131,9 +143,6 @@ void SinumerikInterpreter::ExecuteFrameStatement(const SinumerikItem& item) {
   if (name == "SCALE") Scale();
   if (name == "MIRROR") Mirror();
   if (log_.stopped()) return;
-  if (traori_ && modal_.program.linear.determinant() < 0.0) {
-    Unsupported("MIRROR under TRAORI", Where(item));
-  }
   new_frame_ = frame_dirty_ = true;
   RefreshFrame();
 }

@@ -25,6 +25,13 @@ ContourOptions CompensationOptions() {
   return options;
 }
 
+/// What F counts: it must be programmed anew where that changes (NC programming 12/2019, "Feed").
+Command::FeedMode FeedType(const nc::SinumerikCommand* code) {
+  if (code->name == "G93") return Command::FeedMode::kInverseTime;
+  const bool revolution = code->name == "G95" || code->name == "G96" || code->name == "G97";
+  return revolution ? Command::FeedMode::kPerRevolution : Command::FeedMode::kPerMinute;
+}
+
 }  // namespace
 
 SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> motionless_m,
@@ -146,6 +153,7 @@ void SinumerikInterpreter::Restore() {
   if (saved_.empty()) return;
   modal_ = std::move(saved_.back());
   saved_.pop_back();
+  if (modal_.offset != 0 || !modal_.program.is_zero()) cancelled_.clear();
   UpdateModes();
   new_frame_ = true;
   frame_dirty_ = true;
@@ -190,7 +198,7 @@ void SinumerikInterpreter::ApplyCode(SinumerikItem* item) {
       SelectOffset(OffsetIndex(nc::UpperName(item->name)));
       break;
     case kSinFeedMode:
-      if (modal_.codes[group] != code) feed_word_ = 0.0;
+      if (FeedType(modal_.codes[group]) != FeedType(code)) feed_word_ = 0.0;
       break;
     default:
       break;
@@ -214,8 +222,15 @@ void SinumerikInterpreter::UpdateModes() {
             : Is(kSinMotion, "G3")  ? MotionMode::kCounterClockwise
             : Is(kSinMotion, "CIP") ? MotionMode::kThroughPoint
             : Is(kSinMotion, "CT")  ? MotionMode::kTangent
-                                    : MotionMode::kLine;
+            : Is(kSinMotion, "G33") || Is(kSinMotion, "G331") || Is(kSinMotion, "G332")
+                ? MotionMode::kThread
+                : MotionMode::kLine;
   plane_ = Is(kSinPlane, "G18") ? Plane::kZX : Is(kSinPlane, "G19") ? Plane::kYZ : Plane::kXY;
+  if (LengthAxis() != length_axis_) {
+    length_axis_ = LengthAxis();
+    length_checked_ = false;
+    if (active_.length != 0.0) frame_dirty_ = new_length_ = true;
+  }
   incremental_ = Is(kSinDistance, "G91");
   mm_ = Is(kSinUnits, "G70") || Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
   feed_mm_ = Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
@@ -228,11 +243,9 @@ void SinumerikInterpreter::UpdatePrototype() {
   command_.plane = plane_;
   command_.full_circle = false;
   command_.arc_normal.setZero();
-  const bool inverse = Is(kSinFeedMode, "G93");
-  const bool revolution = Is(kSinFeedMode, "G95") || Is(kSinFeedMode, "G97");
-  command_.feed_mode = inverse      ? Command::FeedMode::kInverseTime
-                       : revolution ? Command::FeedMode::kPerRevolution
-                                    : Command::FeedMode::kPerMinute;
+  command_.feed_mode = FeedType(modal_.codes[kSinFeedMode]);
+  const bool inverse = command_.feed_mode == Command::FeedMode::kInverseTime;
+  const bool revolution = command_.feed_mode == Command::FeedMode::kPerRevolution;
   command_.feed = feed_word_ / 60.0;
   if (!inverse) command_.feed *= feed_mm_;
   if (revolution) command_.feed *= rpm_;
@@ -249,6 +262,7 @@ void SinumerikInterpreter::UpdatePrototype() {
                                         : Command::Comp::kOff;
   command_.comp_radius = active_.radius;
   UpdateTolerance();
+  CheckToleranceFactor();
 }
 
 /// How far smoothing may leave path and orientation: by CYCLE832, else by what is programmed.
@@ -268,7 +282,7 @@ void SinumerikInterpreter::UpdateTolerance() {
   }
   if (smooths || command_.exact_stop) return;
   if (Is(kSinExactStop, "G641") && !compresses) {
-    command_.corner_rounding = adis_.value_or(0.0);
+    command_.corner_rounding = (motion_ == MotionMode::kRapid ? adispos_ : adis_).value_or(0.0);
     return;
   }
   if (Is(kSinExactStop, "G64") && !compresses) return;
@@ -311,7 +325,7 @@ void SinumerikInterpreter::ApplyTechnology() {
   number("CTOL", mm_, &ctol_);
   number("OTOL", kPi / 180.0, &otol_);
   number("ADIS", mm_, &adis_);
-  if (Peek("ADISPOS") != nullptr) Take("ADISPOS");
+  number("ADISPOS", mm_, &adispos_);
   for (const std::string_view name : {"SPOS", "SPOSA"}) {
     if (Peek(name) != nullptr && Take(name) != nullptr) spindle_ = 0;
   }

@@ -89,9 +89,12 @@ void SinumerikInterpreter::ExecuteMotion() {
   AxisValues end = position_;
   unsigned named = 0;
   SinumerikArcWords arc;
-  const bool is_arc = motion_ != MotionMode::kRapid && motion_ != MotionMode::kLine;
+  const bool is_line = motion_ == MotionMode::kRapid || motion_ == MotionMode::kLine ||
+                       motion_ == MotionMode::kThread;
+  const bool is_arc = !is_line;
+  if (is_arc) TakePole(&arc);
   const bool go = TakeTargets(&end, &named) && TakePolar(&end, &named) &&
-                  TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc));
+                  TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc)) && TakePitch();
   const bool has_arc_words =
       is_arc && (arc.centre[0] || arc.centre[1] || arc.centre[2] || arc.angle);
   if (go && (named != 0 || has_arc_words)) {
@@ -228,6 +231,37 @@ bool SinumerikInterpreter::TakePolar(AxisValues* end, unsigned* named) {
   return true;
 }
 
+/// G2 or G3 with AP= or RP= and no centre goes about the pole.
+void SinumerikInterpreter::TakePole(SinumerikArcWords* words) {
+  const bool circle = motion_ == MotionMode::kClockwise || motion_ == MotionMode::kCounterClockwise;
+  if (!circle || (Peek("AP") == nullptr && Peek("RP") == nullptr)) return;
+  for (const std::string_view name : {"I", "J", "K", "CR", "AR"}) {
+    if (Peek(name) != nullptr) return;
+  }
+  const PlaneAxes plane = AxesOf(plane_);
+  words->centre[static_cast<std::size_t>(plane.first)] = pole_.x();
+  words->centre[static_cast<std::size_t>(plane.second)] = pole_.y();
+}
+
+/// G33, G331, G332: the pitch I, J, K of the thread times the spindle's speed is the feed. With
+/// G331 and G332 the control turns the spindle itself; a negative pitch turns it the other way.
+bool SinumerikInterpreter::TakePitch() {
+  if (motion_ != MotionMode::kThread) return true;
+  double pitch = 0.0;
+  for (const std::string_view letter : {"I", "J", "K"}) {
+    if (Peek(letter) == nullptr) continue;
+    const SinumerikItem* item = Take(letter);
+    if (item == nullptr) return false;
+    pitch = std::max(pitch, std::abs(item->value * mm_));
+  }
+  const bool rigid = !Is(kSinMotion, "G33");
+  command_.feed_mode = Command::FeedMode::kPerRevolution;
+  command_.feed = pitch * rpm_ / 60.0;
+  command_.spindle_on = rpm_ > 0.0 && (rigid || spindle_ != 0);
+  command_.exact_stop = true;
+  return true;
+}
+
 bool SinumerikInterpreter::TakeArcWords(SinumerikArcWords* words) {
   words->clockwise = motion_ == MotionMode::kClockwise;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -269,7 +303,12 @@ bool SinumerikInterpreter::CheckFeed() {
   if (command_.feed > 0.0 && (!inverse || feed_in_block_)) return true;
   std::string message = "a feed move without F (alarm 10860)";
   if (inverse) message = "G93 needs F in every block that feeds (alarm 10860)";
-  if (feed_word_ > 0.0 && !inverse) message = "feed per revolution with the spindle speed 0";
+  if (motion_ == MotionMode::kThread) {
+    message =
+        std::string(modal_.codes[kSinMotion]->name) + " needs a pitch I, J or K and a speed S";
+  } else if (feed_word_ > 0.0 && !inverse) {
+    message = "feed per revolution with the spindle speed 0";
+  }
   log_.Alarm(Rule::kFeedMissing, step_->where, std::move(message));
   return false;
 }
@@ -297,6 +336,10 @@ void SinumerikInterpreter::MoveOnArc(const SinumerikArcWords& words) {
     }
   }
   const AxisValues start = position_;
+  const bool led = traori_ && command_.orientation == Orientation::kVector;
+  if (turns > 0.0 && led && RotaryJoints(start) != RotaryJoints(command_.end)) {
+    Unsupported("TURN= while the tool vector turns", step_->where);
+  }
   const std::string error = MakeSinumerikArc(
       start, words, {settings_.circle_error, settings_.circle_error_factor}, &command_);
   if (!error.empty()) {
@@ -356,10 +399,8 @@ void SinumerikInterpreter::Push() {
     Unsupported("G41 or G42 outside G17, or under TRAORI", step_->where);
     command_.comp = Command::Comp::kOff;
   }
-  if (plane_ != Plane::kXY && active_.length != 0.0) {
-    Unsupported("G18 or G19 with a tool length", step_->where,
-                "the control turns the length to the plane's normal");
-  }
+  if (traori_ && command_.orientation == Orientation::kVector) PassPole();
+  if (log_.stopped()) return;
   contour_.Push(command_);
   position_ = command_.end;
   moved_ = true;

@@ -189,6 +189,92 @@ TEST(SinumerikFrames, PolarCoordinates) {
   EXPECT_EQ(EndOf(run, 7), "X18 Y20 Z-100 B0 C0");
 }
 
+TEST(SinumerikMotion, CirclesAboutThePole) {
+  // Manual, "Circular interpolation with polar coordinates": the pole is the centre.
+  const TestRun run = SinumerikTest().Run(Head("G111 X10 Y0\nG3 F100 RP=10 AP=270\n"));
+  ASSERT_EQ(run.motions.size(), 2u) << run.Text();
+  const auto& arc = std::get<motion::AxisArc>(run.motions[1].path);
+  EXPECT_NEAR(arc.sweep, kPi / 2.0, 1e-9);
+  EXPECT_NEAR(arc.q1[kJointX], 20.0, 1e-9);
+  EXPECT_NEAR(arc.q1[kJointY], 10.0, 1e-9);
+}
+
+TEST(SinumerikMotion, ThreadsFeedByPitchAndSpeed) {
+  // Manual, "Rigid tapping": 600 / min of 1.5 mm are 15 mm/s.
+  const TestRun run = SinumerikTest().Run(Head("S600 SPOS=0\nG331 Z20 K1.5\nG332 Z50 K1.5\n"));
+  ASSERT_EQ(run.motions.size(), 3u) << run.Text();
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_NEAR(run.motions[1].duration, 2.0, 1e-9);
+  EXPECT_TRUE(run.motions[1].facts.spindle_on);
+  EXPECT_EQ(EndOf(run, 5), "X10 Y20 Z-100 B0 C0");
+  EXPECT_TRUE(SinumerikTest().Run(Head("G331 Z20 K1.5\n")).Has(Rule::kFeedMissing));
+  EXPECT_TRUE(SinumerikTest().Run(Head("S600\nG331 Z20\n")).Has(Rule::kFeedMissing));
+}
+
+TEST(SinumerikMotion, FIsProgrammedAnewWhereItsKindChanges) {
+  // Manual, "Feedrate": G94, G971 and G961 count minutes, G95 to G97 revolutions.
+  const std::string head = Head("S1000 M3 G95 G1 X1 F.1\n");
+  EXPECT_FALSE(SinumerikTest().Run(head + "G97 X2\n").Has(Rule::kFeedMissing));
+  EXPECT_TRUE(SinumerikTest().Run(head + "G94 X2\n").Has(Rule::kFeedMissing));
+}
+
+TEST(SinumerikMotion, SmoothingLeavesRapidsToo) {
+  // Manual, "Continuous-path mode": G641 takes ADISPOS for G0.
+  const TestRun run =
+      SinumerikTest().Run(Head("G641 ADIS=.5 ADISPOS=2\nX5\nG1 F100 X6\nG60 G0 X7\n"));
+  EXPECT_NEAR(run.Last(4).facts.corner_rounding, 2.0, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.5, 1e-12);
+  EXPECT_EQ(run.Last(6).facts.corner_rounding, 0.0);
+}
+
+TEST(SinumerikFrames, VariablesOfActiveFrames) {
+  // Manual, "Frame variables": $P_PFRAME and $P_IFRAME act at once, a chain from the left;
+  // $P_UIFR when it is selected.
+  SinumerikTest control;
+  TestRun run =
+      control.Run(Head("$P_PFRAME=CTRANS(X,100):CROT(Z,90)\nG0 X10 Y0\n"
+                       "$P_PFRAME=$P_PFRAME:CTRANS(X,5)\nX10\n$P_PFRAME[X,TR]=7\nX0 Y0\n"
+                       "R1=$P_ACTFRAME[X,TR]+$P_PFRAME[Z,RT]\nTRANS\nX=R1\n"));
+  EXPECT_EQ(EndOf(run, 4), "X110 Y30 Z-100 B0 C0") << run.Text();
+  EXPECT_EQ(EndOf(run, 6), "X110 Y35 Z-100 B0 C0");
+  // The chain comes to a shift of 100, 5 and a turn of 90: then X is 7.
+  EXPECT_EQ(EndOf(run, 8), "X17 Y25 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 11), "X" + Short(10.0 + 17.0 + 90.0) + " Y25 Z-100 B0 C0");
+  run =
+      control.Run(Head("$P_IFRAME=CTRANS(X,1,Y,2,Z,-250)\nG0 X0 Y0\nG54 X0\n"
+                       "$P_UIFR[2]=CTRANS(X,1):CTRANS(X,2,Z,-250):CROT(Z,90)\nG55 X5 Y0\n"));
+  EXPECT_EQ(EndOf(run, 4), "X1 Y2 Z-100 B0 C0") << run.Text();
+  EXPECT_EQ(EndOf(run, 5), "X10 Y2 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 7), "X3 Y5 Z-100 B0 C0");
+  run = control.Run(Head("$P_UIFR[2]=CROT(Z,30):CSCALE(X,2):CROT(Z,30)\n"));
+  EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << run.Text();
+  run = control.Run(Head("$P_UIFR[2,X,SC]=0\n"));
+  EXPECT_TRUE(run.Has(Rule::kControlAlarm)) << run.Text();
+}
+
+TEST(SinumerikFrames, SystemVariablesAreInInchesUnderG700) {
+  // Manual, "G70, G71, G700, G710".
+  const TestRun run = SinumerikTest().Run(Head(
+      "G700\n$P_UIFR[1,X,TR]=1\n$TC_DP3[1,1]=1\nR1=$P_UIFR[1,X,TR]\nG710 G54 D1 G0 X=R1 Z0\n"));
+  EXPECT_EQ(EndOf(run, 7), "X26.4 Y20 Z-224.6 B0 C0") << run.Text();
+}
+
+TEST(SinumerikTools, LengthGoesByThePlane) {
+  // SD42940: 0, length 1 counts along the normal of the plane; 17, always along Z.
+  SinumerikTest control;
+  const std::string text = Head("G18 Z50\nY0\n");
+  TestRun run = control.Run(text);
+  EXPECT_EQ(EndOf(run, 3), "X10 Y20 Z-200 B0 C0") << run.Text();
+  EXPECT_EQ(EndOf(run, 4), "X10 Y120 Z-200 B0 C0");
+  ASSERT_TRUE(run.Has(Rule::kToolLength));
+  EXPECT_NE(run.Find(Rule::kToolLength)->message.find("SD42940 = 17"), std::string::npos);
+  EXPECT_EQ(run.Find(Rule::kToolLength)->where.line, 3);
+  control.job.control["SD42940"] = "17";
+  run = control.Run(text);
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 4), "X10 Y20 Z-100 B0 C0");
+}
+
 TEST(SinumerikTools, ByNameAndByNumber) {
   SinumerikTest control;
   TestRun run = control.Run("T=\"BALL_6\"\nM6\nG54 G0 Z0\n");
