@@ -92,9 +92,12 @@ class SinumerikSystem {
   virtual void AssumeZero(const std::string& name) = 0;
 };
 
+/// A run is stopped after this many blocks: a loop that does not end.
+inline constexpr std::uint64_t kMaxSinumerikBlocks = 50'000'000;
+
 struct SinumerikFlowOptions {
   unsigned skip_levels = 0;  ///< Bit n: the operator skips `/n`.
-  std::uint64_t max_blocks = 50'000'000;
+  std::uint64_t max_blocks = kMaxSinumerikBlocks;
   std::size_t r_parameters = 1000;  ///< MD28050.
   std::vector<std::string> subprogram_folders;
 };
