@@ -33,15 +33,20 @@ void SinumerikInterpreter::HighSpeedSettings(std::span<const nc::SinumerikValue>
   };
   contour_tolerance_ = orientation_tolerance_ = 0.0;
   factor_name_ = {};
-  const long type = given(1) ? std::lround(arguments[1].number) : 0;
+  constexpr double kMaxType = 1e8;
+  const bool typed = given(1) && std::abs(arguments[1].number) < kMaxType;
+  const long type = typed ? std::lround(arguments[1].number) : 0;
   const long units = type % 10;
+  if (type / 100 % 10 != 0) {
+    Unsupported("the hundreds of CYCLE832's type", where, "older software switches TRAORI by them");
+  }
   if (!given(0) || units == 0) return;
   contour_tolerance_ = std::max(0.0, arguments[0].number * mm_);
   if (type / 10 % 10 == 1 && given(2)) {
     orientation_tolerance_ = std::max(0.0, Radians(arguments[2].number));
     return;
   }
-  constexpr std::array<const char*, 5> kFactors = {"", "SD55443", "SD55442", "SD55441", "SD55443"};
+  constexpr std::array<const char*, 5> kFactors = {"", "SD55443", "SD55442", "SD55441", "SD55444"};
   if (units < 0 || units >= static_cast<long>(kFactors.size())) {
     Unsupported("CYCLE832 of a type that it does not have", where);
     return;

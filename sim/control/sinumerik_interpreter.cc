@@ -128,6 +128,8 @@ void SinumerikInterpreter::Execute(SinumerikStep* step) {
   ApplyCodes();
   if (!log_.stopped()) ApplyTechnology();
   if (!log_.stopped()) ApplyM(false);
+  // Of the tool that M6 has brought.
+  if (SinumerikItem* d = log_.stopped() ? nullptr : Peek("D")) ApplyEdge(d);
   if (!log_.stopped()) ExecuteCalls();
   if (log_.stopped()) return;
   if (frame_dirty_) RefreshFrame();
@@ -295,7 +297,7 @@ void SinumerikInterpreter::UpdateTolerance() {
   }
 }
 
-/// S, F, T, D and the words of smoothing.
+/// S, F, T and the words of smoothing.
 void SinumerikInterpreter::ApplyTechnology() {
   const bool dwell = statement_ != nullptr && statement_->command->name == "G4";
   for (const std::string_view name : {std::string_view("S"), std::string_view("S1")}) {
@@ -314,7 +316,6 @@ void SinumerikInterpreter::ApplyTechnology() {
   }
   if (SinumerikItem* t = Peek("T")) ApplyToolWord(t);
   if (log_.stopped()) return;
-  if (SinumerikItem* d = Peek("D")) ApplyEdge(d);
   const auto number = [&](std::string_view name, double unit, std::optional<double>* value) {
     if (Peek(name) == nullptr) return;
     const SinumerikItem* item = Take(name);
@@ -374,7 +375,11 @@ void SinumerikInterpreter::ExecuteM(int code, const SinumerikItem& item) {
   const bool known = row != nullptr && row->support != Support::kUnsupported;
   const bool quiet =
       std::find(motionless_m_.begin(), motionless_m_.end(), code) != motionless_m_.end();
-  if (!known && !quiet) Unsupported(name, Where(item));
+  if (known || quiet) return;
+  Unsupported(name, Where(item),
+              row == nullptr ? "it is the machine builder's; if it moves nothing, name it in the "
+                               "job's m_codes_without_motion"
+                             : std::string(row->meaning));
 }
 
 void SinumerikInterpreter::ExecuteCalls() {

@@ -3,7 +3,7 @@
 // the programmed position; sends commands through the contour stage to ToMotion. NC programming
 // 12/2019; machine data by number.
 //
-// Order within a block: G codes, S F T D, tool change, predefined subprograms, frame; then a
+// Order within a block: G codes, S F T, tool change, D, predefined subprograms, frame; then a
 // statement that gives the words another meaning (TRANS, G4 ...), or motion; M0 to M30 at the end.
 #pragma once
 
@@ -169,6 +169,7 @@ class SinumerikInterpreter {
   void Dwell();
   void ReferencePoint();
   void ExecuteMotion();
+  void PositionAxis();
   bool TakeTargets(AxisValues* end, unsigned* named);
   bool LinearTarget(int axis, const SinumerikItem& item, double* value);
   bool RotaryTarget(int axis, const SinumerikItem& item, double* value);

@@ -79,7 +79,40 @@ void SinumerikInterpreter::PushMachine(CommandKind kind, unsigned named, const A
   contour_.SetPosition(position_);
 }
 
+/// POS[X]=10 [FA[X]=500], alone in its block: a line. More axes would go each at its own rate; what
+/// stands beside it is left over, and said.
+void SinumerikInterpreter::PositionAxis() {
+  SinumerikItem* item = Peek("POS");
+  item->used = true;
+  const bool indexed = item->value_count == 1 && !item->is_text;
+  const std::string name = indexed ? step_->values[item->first_value].text : "";
+  const std::size_t i = name.size() == 1 ? kLetters.find(name[0]) : kLetters.npos;
+  if (i >= kNumAxes || !axes_.has(static_cast<int>(i))) {
+    return Unsupported("POS", Where(*item), "it names no axis of this machine");
+  }
+  if (traori_) return Unsupported("POS under TRAORI", Where(*item));
+  const int axis = static_cast<int>(i);
+  AxisValues end = position_;
+  if (!(axes_.data(axis).rotary ? RotaryTarget(axis, *item, &end[i])
+                                : LinearTarget(axis, *item, &end[i]))) {
+    return;
+  }
+  carry_[i] = 0.0;
+  if (axis <= kZ) BeforeLinearMotion();
+  if (log_.stopped()) return;
+  const SinumerikItem* feed = Peek("FA") == nullptr ? nullptr : Take("FA");
+  command_.kind = feed != nullptr && feed->value > 0.0 ? CommandKind::kFeed : CommandKind::kRapid;
+  if (command_.kind == CommandKind::kFeed) {
+    command_.feed_mode = Command::FeedMode::kPerMinute;
+    command_.feed = feed->value * feed_mm_ / 60.0;
+  }
+  command_.end = end;
+  command_.named = static_cast<std::uint8_t>(1U << axis);
+  Push();
+}
+
 void SinumerikInterpreter::ExecuteMotion() {
+  if (Peek("POS") != nullptr) return PositionAxis();
   const bool suppressed = suppress_ != nullptr;
   if (suppressed) {
     if (!Is(kSinComp, "G40")) Unsupported(suppress_->name, step_->where, "with G41 or G42 active");

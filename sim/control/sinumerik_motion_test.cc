@@ -211,6 +211,18 @@ TEST(SinumerikMotion, ThreadsFeedByPitchAndSpeed) {
   EXPECT_TRUE(SinumerikTest().Run(Head("S600\nG331 Z20\n")).Has(Rule::kFeedMissing));
 }
 
+TEST(SinumerikMotion, PositionsOneAxisInABlock) {
+  // Manual, "Positioning axes": with FA a feed of its own, under any G code of motion.
+  const TestRun run = SinumerikTest().Run(Head("G3\nPOS[X]=5 FA[X]=600\nPOS[C]=DC(350)\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(run.Last(4).kind, motion::MotionKind::kFeed);
+  EXPECT_NEAR(run.Last(4).duration, 0.5, 1e-9);
+  EXPECT_EQ(EndOf(run, 5), "X15 Y20 Z-100 B0 C-10");
+  for (const char* block : {"POS[X]=5 POS[Y]=1", "POS[X]=1 Y2", "POSA[X]=1"}) {
+    EXPECT_TRUE(SinumerikTest().Run(Head(std::string(block) + "\n")).Has(Rule::kUnsupportedCode));
+  }
+}
+
 TEST(SinumerikMotion, FIsProgrammedAnewWhereItsKindChanges) {
   // Manual, "Feedrate": G94, G971 and G961 count minutes, G95 to G97 revolutions.
   const std::string head = Head("S1000 M3 G95 G1 X1 F.1\n");
@@ -257,6 +269,26 @@ TEST(SinumerikFrames, SystemVariablesAreInInchesUnderG700) {
   const TestRun run = SinumerikTest().Run(Head(
       "G700\n$P_UIFR[1,X,TR]=1\n$TC_DP3[1,1]=1\nR1=$P_UIFR[1,X,TR]\nG710 G54 D1 G0 X=R1 Z0\n"));
   EXPECT_EQ(EndOf(run, 7), "X26.4 Y20 Z-224.6 B0 C0") << run.Text();
+}
+
+TEST(SinumerikTools, TheEdgeInTheBlockOfM6IsOneOfTheNewTool) {
+  // Manual, "Tool change with M6": T2 has D1 (150 mm) and here D2 (140 mm), T1 has D1 only.
+  SinumerikTest control;
+  const TestRun run =
+      control.Run("$TC_DP3[2,2]=140 $TC_DP6[2,2]=3\nT2 D2 M6\nG54 G0 Z0\nT1 M6 D0\nZ0\n");
+  EXPECT_FALSE(run.Has(Rule::kControlAlarm)) << run.Text();
+  EXPECT_EQ(EndOf(run, 3), "X0 Y0 Z-110 B0 C0");
+  EXPECT_EQ(EndOf(run, 5), "X0 Y0 Z-250 B0 C0");
+}
+
+TEST(SinumerikTools, AToolThatNobodyStatesHasAnyEdge) {
+  SinumerikTest control;
+  const std::string text = "G54 G0 Z50 D3\n";
+  EXPECT_NE(control.Run(text).Text().find("17180"), std::string::npos);
+  control.tools.tools[0].assumed = "length 100 mm";
+  const TestRun run = control.Run(text);
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 1), "X0 Y0 Z-100 B0 C0");
 }
 
 TEST(SinumerikTools, LengthGoesByThePlane) {

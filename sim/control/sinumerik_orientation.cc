@@ -73,8 +73,15 @@ std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeToolAxis() {
   Eigen::Vector3d values = Eigen::Vector3d::Zero();
   if (take('3', &values)) return values;
   if (!take('2', &values)) return std::nullopt;
-  const bool euler = settings_.orientation_by_g50 ? Is(kSinOrientationAngles, "ORIEULER")
-                                                  : settings_.orientation_euler;
+  bool euler = settings_.orientation_euler;
+  if (settings_.orientation_by_g50) {
+    euler = Is(kSinOrientationAngles, "ORIEULER");
+    if (!euler && !Is(kSinOrientationAngles, "ORIRPY")) {
+      const std::string_view code = modal_.codes[kSinOrientationAngles]->name;
+      Unsupported("A2, B2, C2 with " + std::string(code), step_->where,
+                  "what it makes of the angles is not known");
+    }
+  }
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
   const double a = Radians(values[0]), b = Radians(values[1]), c = Radians(values[2]);
@@ -165,27 +172,32 @@ bool SinumerikInterpreter::WithinLimits(const Eigen::Vector3d& u_B,
                                         std::array<double, 2>* reached) {
   const kinematics::FiveAxis& five_axis = parts_.frames->five_axis();
   const kinematics::RotaryLimits limits = LimitsOf(*parts_.machine, five_axis);
-  std::string beyond;
-  for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
-    const double angle = reached->at(i);
-    if (angle >= limits.lower.at(i) - kSame && angle <= limits.upper.at(i) + kSame) continue;
-    for (const machine::Axis& axis : parts_.machine->axes) {
-      if (axis.joint == five_axis.rotary()[i]) {
-        beyond = std::string(1, axis.letter) + Fixed(Degrees(angle), 3);
+  const auto written = [&](const std::array<double, 2>& angles) {
+    std::string text;
+    for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
+      for (const machine::Axis& axis : parts_.machine->axes) {
+        if (axis.joint != five_axis.rotary()[i]) continue;
+        text += (text.empty() ? "" : " ") + std::string(1, axis.letter) +
+                Fixed(Degrees(angles.at(i)), 3);
       }
     }
+    return text;
+  };
+  bool within = true;
+  for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
+    within = within && reached->at(i) >= limits.lower.at(i) - kSame &&
+             reached->at(i) <= limits.upper.at(i) + kSame;
   }
-  if (beyond.empty()) return true;
-  const std::string position = "the position of the rotary axes that is reached first, " + beyond +
-                               ", lies behind the software limits";
+  if (within) return true;
+  const std::string position = "the tool is leaned to this orientation the nearest way at " +
+                               written(*reached) + ", behind the software limits";
   const int units = settings_.limit_mode % 10;
   const auto others = kinematics::ReachableRotary(five_axis, u_B, from, limits);
-  if (units == 0 || (units == 1 && led) || others.empty()) {
-    return Alarm(
-        step_->where, 10720,
-        position + (others.empty() ? ", and there is no other"
-                                   : "; MD21180 = " + std::to_string(settings_.limit_mode) +
-                                         " takes no other one"));
+  if (others.empty()) return Alarm(step_->where, 10720, position + ", and there is no other way");
+  if (units == 0 || (units == 1 && led)) {
+    return Alarm(step_->where, 10720,
+                 position + "; " + written(others[0].angles) + " would do, but MD21180 = " +
+                     std::to_string(settings_.limit_mode) + " does not let the control take it");
   }
   if (settings_.limit_mode >= 10) {
     Unsupported("MD21180 = " + std::to_string(settings_.limit_mode), step_->where, position);

@@ -59,13 +59,18 @@ void SinumerikInterpreter::ApplyEdge(SinumerikItem* item) {
 
 /// Moves nothing: an axis goes the new length with its next own move.
 void SinumerikInterpreter::SelectEdge(int edge, const SourcePosition& where) {
-  const std::optional<EdgeData> data = parts_.registers->Edge(tool_, edge);
+  std::optional<EdgeData> data = parts_.registers->Edge(tool_, edge);
+  const machine::Tool* tool = parts_.tools->Find(tool_);
+  // A tool that nobody states has whatever edges are asked for.
+  if (!data && tool != nullptr && !tool->assumed.empty()) data = parts_.registers->Edge(tool_, 1);
   edge_ = edge;
   if (!data) {
-    const bool known = parts_.tools->Find(tool_) != nullptr;
+    const bool known = tool != nullptr;
     const std::string name = "T" + std::to_string(tool_);
     if (known) {
-      Alarm(where, 17180, name + " has no edge D" + std::to_string(edge));
+      Alarm(where, 17180,
+            name + " has no edge D" + std::to_string(edge) +
+                ": the job states none, nor does a file of tool offsets");
     } else {
       log_.ReportOnce(name, Rule::kToolMissing, where,
                       nc::AlarmText(17190, name + " is not in the tool table"));

@@ -96,6 +96,19 @@ TEST(SinumerikTraori, VectorsAndAngles) {
   ExpectTip(control, run, 4, {0, 0, 20}, Axis(30, 40));
 }
 
+TEST(SinumerikTraori, Group50SaysWhatTheAnglesMeanIfMachineDataLetIt) {
+  // MD21102 or MD21103 = 1.
+  SinumerikTest control;
+  const std::string text = std::string(kStart) + "ORIRPY ORIAXES G1 F500 A2=30 B2=30 C2=40\n";
+  const auto tilt = [&] { return Degrees(control.Run(text).Last(4).q1()[kJointB]); };
+  EXPECT_NEAR(tilt(), 30.0, 1e-9);  // Euler: B2 alone.
+  // RPY: cos 30 cos 30.
+  control.job.control["MD21103"] = "1";
+  EXPECT_NEAR(tilt(), Degrees(std::acos(0.75)), 1e-9);
+  const TestRun run = control.Run(std::string(kStart) + "ORIRPY2 ORIAXES G1 F500 A2=30\n");
+  EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << run.Text();
+}
+
 TEST(SinumerikTraori, FrameThatIsNotSelectedAgainIsOneFinding) {
   const std::string text = "G54 G0 X0 Y0 Z20 D1\nTRAORI\nG1 F500 X1\nX2\nX3\n";
   SinumerikTest control;
@@ -224,7 +237,8 @@ TEST(SinumerikTraori, BehindTheLimitsMd21180Decides) {
   TestRun run = control.Run(text);
   ASSERT_TRUE(run.Has(Rule::kControlAlarm)) << run.Text();
   const std::string& message = run.Find(Rule::kControlAlarm)->message;
-  for (const char* words : {"10720", "B-45.000", "MD21180 = 0"}) {
+  for (const char* words :
+       {"10720", "at B-45.000 C0.000", "B45.000 C-180.000 would do", "MD21180 = 0"}) {
     EXPECT_NE(message.find(words), std::string::npos) << message;
   }
   control.job.control["MD21180"] = "1";
@@ -245,8 +259,9 @@ TEST(SinumerikTraori, VectorsTurnWithTheFrameUnderOriwksOnly) {
 }
 
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
-  for (const std::string block : {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5", "M77", "POS[X]=1",
-                                  "G75 FP=1 X0", "TRACYL(40)", "RND=2 X1", "H5", "TOROT"}) {
+  for (const std::string block :
+       {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5", "M77", "POS[X]=1", "G75 FP=1 X0", "TRACYL(40)",
+        "RND=2 X1", "H5", "TOROT", "CYCLE832(0.01,112101)"}) {
     const TestRun run = SinumerikTest().Run(std::string(kStart) + "G1 F500 X1\n" + block + "\n");
     EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << block << run.Text();
   }
