@@ -208,6 +208,9 @@ void SinumerikFlow::State::Execute(SinumerikStep* out) {
   out->where = Here(1);
   out->sequence = block.sequence;
   out->skip_level = block.skip_level;
+  out->in_subprogram = std::any_of(levels.begin(), levels.end(), [](const Level& level_) {
+    return level_.kind == LevelKind::kSubprogram;
+  });
   out->comment = block.comment;
   for (std::size_t i = 0; i < block.parts.size(); ++i) {
     if (!ExecutePart(&i, out)) break;

@@ -52,9 +52,10 @@ struct SinumerikModalCall {
 
 /// A block to execute.
 struct SinumerikStep {
-  SourcePosition where;  ///< Column 1 of the block.
-  long sequence = -1;    ///< N.
-  int skip_level = -1;   ///< `/`: the flow has already left out what the switches say.
+  SourcePosition where;        ///< Column 1 of the block.
+  long sequence = -1;          ///< N.
+  int skip_level = -1;         ///< `/`: the flow has already left out what the switches say.
+  bool in_subprogram = false;  ///< M2 and M30 return from it.
   std::vector<SinumerikItem> items;
   std::vector<nc::SinumerikValue> values;
   std::string_view comment;

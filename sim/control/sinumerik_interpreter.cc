@@ -14,7 +14,7 @@ namespace {
 
 using nc::Support;
 
-// mm: what G642 to G645 and the compressors may leave the path by where nobody states it
+// mm, deg: what G642 to G645 and the compressors may leave the path by where nobody states it
 // (MD33100, standard value).
 constexpr double kStandardTolerance = 0.05;
 
@@ -274,7 +274,7 @@ void SinumerikInterpreter::UpdateTolerance() {
   const bool compresses = !Is(kSinCompressor, "COMPOF");
   command_.exact_stop = stops && !smooths && !compresses;
   command_.corner_rounding = contour_tolerance_;
-  command_.orientation_tolerance = smooths ? orientation_tolerance_ : otol_.value_or(0.0);
+  command_.orientation_tolerance = smooths ? orientation_tolerance_ : OrientationTolerance();
   if (traori_ && command_.orientation_tolerance > 0.0) {
     // Bodies are not widened by what the tool may lean.
     log_.Assume("orientation tolerance",
@@ -295,6 +295,20 @@ void SinumerikInterpreter::UpdateTolerance() {
                     " mm: G642 to G645 and compressors leave the path by no more (MD33100)",
                 false);
   }
+}
+
+/// Without CYCLE832, rad: OTOL, else what MD33100 lets a compressor or G642 to G645 do.
+double SinumerikInterpreter::OrientationTolerance() {
+  if (otol_) return *otol_;
+  const bool compresses = !Is(kSinCompressor, "COMPOF");
+  const bool corners =
+      !Is(kSinExactStop, "G60") && !Is(kSinExactStop, "G64") && !Is(kSinExactStop, "G641");
+  if (!traori_ || !(compresses || (corners && !exact_stop_here_))) return 0.0;
+  log_.Assume("smoothing of rotary axes",
+              Short(kStandardTolerance) +
+                  " deg: G642 to G645 and compressors turn the tool by no more (MD33100)",
+              false);
+  return Radians(kStandardTolerance);
 }
 
 /// S, F, T and the words of smoothing.
@@ -352,11 +366,13 @@ void SinumerikInterpreter::ExecuteM(int code, const SinumerikItem& item) {
       if (settings_.optional_stop) contour_.Flush();
       return;
     case 0:
-    case 2:
     case 17:
+      contour_.Flush();
+      return;
+    case 2:
     case 30:
       contour_.Flush();
-      if (code != 17) spindle_ = 0;
+      if (!step_->in_subprogram) spindle_ = 0;
       return;
     case 3:
     case 4:

@@ -126,6 +126,7 @@ class SinumerikInterpreter {
   void UpdateModes();
   void UpdatePrototype();
   void UpdateTolerance();
+  double OrientationTolerance();
   void ApplyTechnology();
   void ApplyM(bool at_end);
   void ExecuteM(int code, const SinumerikItem& item);

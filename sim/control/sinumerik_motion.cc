@@ -428,6 +428,10 @@ bool SinumerikInterpreter::CheckArcFrame() {
 
 void SinumerikInterpreter::Push() {
   const bool compensates = command_.comp != Command::Comp::kOff;
+  if (compensates && edge_ == 0) {
+    Alarm(step_->where, 10750, "G41 or G42 without an edge D");
+    return;
+  }
   if (compensates && (traori_ || plane_ != Plane::kXY)) {
     Unsupported("G41 or G42 outside G17, or under TRAORI", step_->where);
     command_.comp = Command::Comp::kOff;

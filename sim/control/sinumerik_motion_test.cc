@@ -189,6 +189,29 @@ TEST(SinumerikFrames, PolarCoordinates) {
   EXPECT_EQ(EndOf(run, 7), "X18 Y20 Z-100 B0 C0");
 }
 
+TEST(SinumerikMotion, SaveBringsBackGCodesAndFrame) {
+  // Manual, "Subprograms with SAVE"; M30 in a subprogram returns as M17 does and stops no spindle,
+  // nor does M0.
+  const std::string sub = "M30\n%_N_SUB_SPF\nPROC SUB SAVE\nG91 G0 TRANS X100\nG55 G70\nM30\n";
+  const TestRun run = SinumerikTest().Run(Head("S100 M3\nG1 F100\nSUB\nX5\nM0\nX6\n") + sub);
+  EXPECT_FALSE(run.Has(Rule::kControlAlarm)) << run.Text();
+  EXPECT_EQ(EndOf(run, 6), "X15 Y20 Z-100 B0 C0");
+  EXPECT_EQ(run.Last(6).kind, motion::MotionKind::kFeed);
+  EXPECT_TRUE(run.Last(6).facts.spindle_on);
+  EXPECT_TRUE(run.Last(8).facts.spindle_on);
+  // Without SAVE all of it stays: G0, G91, inches, the frame.
+  std::string plain = sub;
+  plain.erase(plain.find(" SAVE"), 5);
+  const TestRun kept = SinumerikTest().Run(Head("S100 M3\nG1 F100\nSUB\nX1\n") + plain);
+  EXPECT_EQ(kept.Last(6).kind, motion::MotionKind::kRapid) << kept.Text();
+}
+
+TEST(SinumerikMotion, CompensationNeedsAnEdge) {
+  // Alarm 10750.
+  const TestRun run = SinumerikTest().Run(Head("D0 G1 F100 G41 X5 Y5\nX20\nG40 X30\n"));
+  EXPECT_NE(run.Text().find("10750"), std::string::npos) << run.Text();
+}
+
 TEST(SinumerikMotion, CirclesAboutThePole) {
   // Manual, "Circular interpolation with polar coordinates": the pole is the centre.
   const TestRun run = SinumerikTest().Run(Head("G111 X10 Y0\nG3 F100 RP=10 AP=270\n"));

@@ -163,6 +163,17 @@ TEST(SinumerikTraori, Cycle832MakesTheOrientationToleranceByAFactor) {
   EXPECT_NE(run.Find(Rule::kUnsupportedCode)->message.find("MD33100"), std::string::npos);
 }
 
+TEST(SinumerikTraori, SmoothingTurnsTheToolWithoutCycle832Too) {
+  // OTOL; else MD33100, standard value 0.05 deg.
+  const TestRun run = SinumerikTest().Run(
+      std::string(kStart) +
+      "G642 CTOL=0.01\nG1 F500 X1\nOTOL=0.2\nX2\nOTOL=-1 G60 COMPCAD\nX3\nCOMPOF X4\n");
+  EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(0.05), 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(7).facts.orientation_tolerance, Radians(0.2), 1e-12);
+  EXPECT_NEAR(run.Last(9).facts.orientation_tolerance, Radians(0.05), 1e-12);
+  EXPECT_EQ(run.Last(10).facts.orientation_tolerance, 0.0);
+}
+
 /// The tool axis of a motion at s.
 Eigen::Vector3d AxisAt(const SinumerikTest& control, const motion::Motion& motion, double s) {
   Eigen::Vector3d p_B, u_B;
