@@ -65,6 +65,12 @@ double Sinumerik840dSystem::unit() const {
   return interpreter_ == nullptr ? 1.0 : interpreter_->system_unit();
 }
 
+void Sinumerik840dSystem::AssumeStated(int index, bool stated) {
+  if (stated) return;
+  log_->Assume("offset " + SinumerikRegisters::FrameName(index),
+               "the program reads it and the job does not state it: the middle of the table", true);
+}
+
 /// $P_UIFR[n], $P_IFRAME, $P_PFRAME, $P_ACTFRAME: whole, or with an axis and a component behind.
 Access Sinumerik840dSystem::ReadFrame(std::string_view name, Indices indices, SinumerikValue* value,
                                       std::string* message) {
@@ -73,19 +79,15 @@ Access Sinumerik840dSystem::ReadFrame(std::string_view name, Indices indices, Si
     const auto index = TakeFrameIndex(&indices);
     if (!index) return Fail(message, 17020, "$P_UIFR has the frames 0 to 99");
     frame = registers_->frame(*index);
-    if (!frame->stated) {
-      log_->Assume("offset " + SinumerikRegisters::FrameName(*index),
-                   "the program reads it and the job does not state it: the middle of the table",
-                   true);
-    }
+    AssumeStated(*index, frame->stated);
   } else if (interpreter_ == nullptr) {
     return Access::kUnknown;
-  } else if (name == "$P_IFRAME") {
-    frame = interpreter_->active_settable();
   } else {
+    const SettableFrame& active = interpreter_->active_settable();
     AffineFrame whole = interpreter_->program_frame();
-    if (name == "$P_ACTFRAME") whole = Chained(ToAffine(interpreter_->active_settable()), whole);
-    frame = ToSettable(whole);
+    if (name == "$P_ACTFRAME") whole = Chained(ToAffine(active), whole);
+    frame = name == "$P_IFRAME" ? active : ToSettable(whole);
+    if (name != "$P_PFRAME") AssumeStated(interpreter_->settable_frame(), active.stated);
   }
   if (!frame) {
     *message =

@@ -42,6 +42,7 @@ class Sinumerik840dSystem : public SinumerikSystem {
   Access WriteComponent(SettableFrame* stored, std::string_view name, const Indices& indices,
                         const nc::SinumerikValue& value, std::string* message);
   static std::optional<int> TakeFrameIndex(Indices* indices);
+  void AssumeStated(int index, bool stated);
   double unit() const;
   double UnitOf(int parameter) const;
   int AxisOf(const nc::SinumerikValue& name) const;
