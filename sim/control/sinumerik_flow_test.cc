@@ -156,6 +156,9 @@ TEST(SinumerikFlowTest, FindingsInAMacroStandWhereItsNameDoes) {
 
 TEST(SinumerikFlowTest, AMacroThatIsNotSimulatedIsNamedWhereItIsUsed) {
   // What is looked up in the text itself, and macros of macros.
+  for (const char* name : {"G0", "R1", "TRANS", "X1"}) {
+    EXPECT_FALSE(SinumerikTestRun(std::string("DEFINE ") + name + " AS G1\n").findings.empty());
+  }
   for (const char* body : {"WHILE R1<2", "LA: X1", "OTHER X1", "DEF REAL AA", "ROUND_X"}) {
     SinumerikTestRun run(std::string("DEFINE OTHER AS G0\nDEFINE ROUND_X AS ") + body +
                          "\nX1\nROUND_X\nX=ROUND_X\n");

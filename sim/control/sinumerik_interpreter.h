@@ -194,7 +194,7 @@ class SinumerikInterpreter {
                     std::array<double, 2>* reached);
   std::array<double, 2> RotaryJoints(AxisValues values) const;
   void SetRotary(const std::array<double, 2>& joints, AxisValues* end) const;
-  Eigen::Vector3d InTable(const Eigen::Vector3d& axis) const;
+  Eigen::Vector3d InTable(const Eigen::Vector3d& axis);
   void PassPole();
   void TurnAtPole(const std::array<double, 2>& start);
   bool vector_path() const;

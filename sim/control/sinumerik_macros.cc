@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/nc/sinumerik_commands.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::control {
@@ -28,6 +29,14 @@ std::string_view WordAt(std::string_view line, std::size_t at) {
 bool IsStructure(std::string_view word) {
   return std::any_of(kStructures.begin(), kStructures.end(),
                      [&](std::string_view structure) { return nc::SameName(word, structure); });
+}
+
+/// Names that the control lets a macro have: its own words are no such, but M, H and L functions.
+bool MayBeMacro(std::string_view name) {
+  if (name.size() < 2) return false;
+  const char letter = nc::Upper(name[0]);
+  if (nc::IsDigit(name[1])) return letter == 'M' || letter == 'H' || letter == 'L';
+  return nc::FindSinumerikCommand(name) == nullptr;
 }
 
 /// The line before its comment.
@@ -63,7 +72,7 @@ bool SinumerikMacros::Define(Scope scope, std::string_view line, std::string_vie
     return body_at == std::string_view::npos;
   });
   const std::string key = nc::UpperName(name);
-  bool plain = body_at != std::string_view::npos;
+  bool plain = body_at != std::string_view::npos && MayBeMacro(name);
   const std::string_view body = plain ? line.substr(body_at) : std::string_view();
   EachWord(body, [&](std::string_view word, std::size_t) {
     plain = plain && !IsStructure(word) && bodies_.count({scope, nc::UpperName(word)}) == 0 &&

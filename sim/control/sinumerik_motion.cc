@@ -109,6 +109,7 @@ void SinumerikInterpreter::PositionAxis() {
   command_.end = end;
   command_.named = static_cast<std::uint8_t>(1U << axis);
   Push();
+  moved_ = false;  // No path motion: a modal call does not follow it.
 }
 
 void SinumerikInterpreter::ExecuteMotion() {

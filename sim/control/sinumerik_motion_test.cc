@@ -241,6 +241,9 @@ TEST(SinumerikMotion, PositionsOneAxisInABlock) {
   EXPECT_EQ(run.Last(4).kind, motion::MotionKind::kFeed);
   EXPECT_NEAR(run.Last(4).duration, 0.5, 1e-9);
   EXPECT_EQ(EndOf(run, 5), "X15 Y20 Z-100 B0 C-10");
+  // It is no path motion: a modal call (here of a cycle that is not simulated) does not follow it.
+  EXPECT_FALSE(
+      SinumerikTest().Run(Head("MCALL CYCLE61(1)\nPOS[X]=5\nMCALL\n")).Has(Rule::kUnsupportedCode));
   for (const char* block : {"POS[X]=5 POS[Y]=1", "POS[X]=1 Y2", "POSA[X]=1"}) {
     EXPECT_TRUE(SinumerikTest().Run(Head(std::string(block) + "\n")).Has(Rule::kUnsupportedCode));
   }

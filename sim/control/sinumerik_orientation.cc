@@ -130,8 +130,14 @@ void SinumerikInterpreter::SetRotary(const std::array<double, 2>& joints, AxisVa
 }
 
 /// With ORIMKS a vector is one of the machine's directions; with ORIWKS it turns with the frame.
-Eigen::Vector3d SinumerikInterpreter::InTable(const Eigen::Vector3d& axis) const {
+Eigen::Vector3d SinumerikInterpreter::InTable(const Eigen::Vector3d& axis) {
   Eigen::Vector3d u = axis;
+  const Eigen::Matrix3d& linear = frame_->program.linear;
+  const Eigen::Matrix3d square = linear.transpose() * linear;
+  constexpr double kRounding = 1e-12;
+  if ((square - Eigen::Matrix3d::Identity() * square(0, 0)).norm() > kRounding * square(0, 0)) {
+    Unsupported("an orientation vector in a frame with different scales of the axes", step_->where);
+  }
   if (Is(kSinOrientationSystem, "ORIMKS")) u = frame_->program.linear.inverse() * u;
   return parts_.frames->InTable(frame_).Vector(u).normalized();
 }
