@@ -58,6 +58,11 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
   for (const auto& [group, code] : settings_.start_codes) {
     const nc::SinumerikCommand* row = nc::FindSinumerikCommand(code);
     if (row == nullptr || row->group != group) continue;
+    // What A2, B2, C2 mean is asked for where they stand.
+    if (row->support == Support::kUnsupported && group != kSinOrientationAngles) {
+      log_.Assume("MD20150[" + std::to_string(group - 1) + "]",
+                  code + " is active at the start and was not simulated", true);
+    }
     modal_.codes[static_cast<std::size_t>(group)] = row;
     if (group == kSinOffset) SelectOffset(std::max(0, OffsetIndex(code)));
   }

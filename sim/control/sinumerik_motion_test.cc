@@ -3,7 +3,9 @@
 // number. Machine values are worked out by hand from G54 X10 Y20 Z-250 and T1 of 100 mm.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/control/sinumerik_test_machine.h"
 
@@ -254,6 +256,25 @@ TEST(SinumerikMotion, FIsProgrammedAnewWhereItsKindChanges) {
   const std::string head = Head("S1000 M3 G95 G1 X1 F.1\n");
   EXPECT_FALSE(SinumerikTest().Run(head + "G97 X2\n").Has(Rule::kFeedMissing));
   EXPECT_TRUE(SinumerikTest().Run(head + "G94 X2\n").Has(Rule::kFeedMissing));
+}
+
+TEST(SinumerikMotion, MachineDataSayHowItStarts) {
+  // MD20730 = 0: G0 of each axis for itself until RTLION; what is not simulated is an assumption
+  // that keeps the verdict from pass (MD20150, MD30330).
+  SinumerikTest control;
+  control.job.control = {{"MD20730", "0"}, {"MD20150[14]", "G96"}, {"MD30330[C]", "720"}};
+  const TestRun run = control.Run("G54 D0 G0 X50 Y10\nRTLION X0 Y0\n");
+  const auto middle = [&run](int line) {
+    const motion::JointVector at = run.Last(line).At(0.5);
+    return std::pair(at[kJointX], at[kJointY]);
+  };
+  EXPECT_NEAR(middle(1).second, 30.0, 1e-9) << run.Text();  // Y is there already.
+  EXPECT_NEAR(middle(2).first - 10.0, 5.0 * (middle(2).second - 20.0), 1e-9);
+  for (const char* name : {"MD20150[14]", "MD30330[C]"}) {
+    EXPECT_TRUE(std::any_of(run.summary.assumptions.begin(), run.summary.assumptions.end(),
+                            [&](const Assumption& a) { return a.name == name && a.places_metal; }))
+        << name;
+  }
 }
 
 TEST(SinumerikMotion, SmoothingLeavesRapidsToo) {

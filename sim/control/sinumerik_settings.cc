@@ -60,7 +60,17 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
     const auto code = source.Text("MD20150[" + std::to_string(group - 1) + "]");
     if (code) settings.start_codes[group] = *code;
   }
+  if (Whole(source, "MD20730", 1) == 0 && job.control.count("MD20150[54]") == 0) {
+    settings.start_codes[55] = "RTLIOF";
+  }
   ReadRotary(source, &settings);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = std::string("MD30330[") + "ABC"[i] + "]";
+    constexpr double kTurn = 360.0;
+    if (settings.rotary[i].modulo && source.Number(name).value_or(kTurn) != kTurn) {
+      log->Assume(name, "taken as 360: another modulo range is not simulated", true);
+    }
+  }
   const int frame_mode = Whole(source, "MD10602", 0);
   settings.rpy = Whole(source, "MD10600", 1) == 1;
   settings.frame_keeps_translations = frame_mode == 1;
