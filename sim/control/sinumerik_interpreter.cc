@@ -125,6 +125,7 @@ void SinumerikInterpreter::Execute(SinumerikStep* step) {
   step_ = step;
   statement_ = nullptr;
   suppress_ = nullptr;
+  tool_frame_due_ = false;
   moved_ = feed_in_block_ = edge_in_block_ = exact_stop_here_ = has_codes_ = false;
   if (step->skip_level >= 0) {
     log_.Assume("block skip", "off: blocks with / are executed where no level is switched on",
@@ -138,6 +139,7 @@ void SinumerikInterpreter::Execute(SinumerikStep* step) {
   if (!log_.stopped()) ExecuteCalls();
   if (log_.stopped()) return;
   if (frame_dirty_) RefreshFrame();
+  if (tool_frame_due_) TurnToTool();
   UpdatePrototype();
   if (statement_ != nullptr) {
     statement_->command->group == kSinFrame ? ExecuteFrameStatement(*statement_)
@@ -203,6 +205,9 @@ void SinumerikInterpreter::ApplyCode(SinumerikItem* item) {
       return;
     case kSinOffset:
       SelectOffset(OffsetIndex(nc::UpperName(item->name)));
+      break;
+    case kSinToolFrame:
+      tool_frame_due_ = true;
       break;
     case kSinFeedMode:
       if (FeedType(modal_.codes[group]) != FeedType(code)) feed_word_ = 0.0;

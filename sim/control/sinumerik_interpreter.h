@@ -50,6 +50,7 @@ enum SinumerikGroup {
   kSinCompressor = 30,
   kSinOrientationAngles = 50,
   kSinOrientationPath = 51,
+  kSinToolFrame = 53,
   kSinRapid = 55,
   kNumSinGroups = 65
 };
@@ -98,6 +99,7 @@ class SinumerikInterpreter {
   double system_unit() const { return feed_mm_; }
   double tool_length() const { return active_.length; }
   const AffineFrame& program_frame() const { return modal_.program; }
+  bool tool_frame() const { return modal_.tool_turn != Eigen::Matrix3d::Identity(); }
   const SettableFrame& active_settable() const { return modal_.settable; }
   void SetProgramFrame(const AffineFrame& frame);
   void SetActiveSettable(const SettableFrame& frame);
@@ -106,8 +108,9 @@ class SinumerikInterpreter {
   /// What SAVE keeps.
   struct Modal {
     std::array<const nc::SinumerikCommand*, kNumSinGroups> codes{};
-    int offset = 0;          ///< Of $P_UIFR.
-    SettableFrame settable;  ///< As it was when it was selected.
+    int offset = 0;                                           ///< Of $P_UIFR.
+    SettableFrame settable;                                   ///< As it was when it was selected.
+    Eigen::Matrix3d tool_turn = Eigen::Matrix3d::Identity();  ///< TOROT: before `program`.
     AffineFrame program;
   };
   enum class MotionMode {
@@ -147,6 +150,7 @@ class SinumerikInterpreter {
   Frame MakeFrame() const;
   Frame SuppressedFrame() const;
   void RefreshFrame();
+  void TurnToTool();
   void UseFrame(const Frame& frame);
   void ExecuteFrameStatement(const SinumerikItem& item);
   void Translate();
@@ -229,11 +233,13 @@ class SinumerikInterpreter {
   std::shared_ptr<const Frame> frame_;
   bool frame_dirty_ = false;
   bool new_frame_ = false, new_length_ = false;  ///< What made it so.
+  bool tool_frame_due_ = false;                  ///< TOROT stands in the block.
   bool traori_ = false;
   std::string
       cancelled_;  ///< The frame that TRAORI or TRAFOOF cancelled, and nobody selected again.
   AxisValues position_{};  ///< Programmed position, program coordinates of frame_.
   AxisValues carry_{};     ///< What the next incremental move of an axis goes beside its own way.
+  std::array<bool, kNumAxes> carry_turned_{};  ///< And the frame has turned since.
   Eigen::Vector2d pole_ = Eigen::Vector2d::Zero();
   Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();  ///< At the end of the last motion.
   Command command_;                                    ///< Carries the modal facts; reused.

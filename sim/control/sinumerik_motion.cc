@@ -129,6 +129,11 @@ void SinumerikInterpreter::ExecuteMotion() {
   if (is_arc) TakePole(&arc);
   const bool go = TakeTargets(&end, &named) && TakePolar(&end, &named) &&
                   TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc)) && TakePitch();
+  constexpr unsigned kAside = 1U << kX | 1U << kY;
+  if (tool_frame() && !suppressed && ((named & kAside) != 0 || is_arc)) {
+    Unsupported("X, Y or an arc under TOROT", step_->where,
+                "where X points is not known (SD42980)");
+  }
   const bool has_arc_words =
       is_arc && (arc.centre[0] || arc.centre[1] || arc.centre[2] || arc.angle);
   if (go && (named != 0 || has_arc_words)) {
@@ -157,6 +162,7 @@ bool SinumerikInterpreter::TakeTargets(AxisValues* end, unsigned* named) {
     }
     (*end)[i] = value;
     carry_[i] = 0.0;
+    carry_turned_[i] = false;
     *named |= 1U << axis;
   }
   return true;
@@ -171,6 +177,10 @@ bool SinumerikInterpreter::LinearTarget(int axis, const SinumerikItem& item, dou
     case Modifier::kNone:
     case Modifier::kAc:
     case Modifier::kIc:
+      if (adds && carry_turned_[i] && carry_[i] != 0.0) {
+        Unsupported("an incremental move behind a turn of the frame", Where(item),
+                    "whether it goes from the old or the new coordinates is not known");
+      }
       *value = adds ? position_[i] + carry_[i] + programmed : programmed;
       return true;
     case Modifier::kDc:

@@ -148,6 +148,15 @@ TEST(SinumerikFrames, TransAndRotMoveTheAxesTogether) {
   EXPECT_EQ(EndOf(run, 4), "X13 Y21 Z-248 B0 C0");
 }
 
+TEST(SinumerikFrames, AnIncrementalMoveBehindATurnIsSaid) {
+  // SD42440 = 1 speaks of offsets only. Not where the axis stands in the zero, nor behind TRANS.
+  EXPECT_TRUE(SinumerikTest().Run(Head("X10\nAROT Z30\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+  EXPECT_FALSE(SinumerikTest().Run(Head("AROT Z30\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+  EXPECT_FALSE(
+      SinumerikTest().Run(Head("X10\nAROT Z30\nX0 Y0\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+  EXPECT_FALSE(SinumerikTest().Run(Head("X10\nATRANS X3\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+}
+
 TEST(SinumerikFrames, MirrorAndScaleChangeArcs) {
   const TestRun run =
       SinumerikTest().Run(Head("MIRROR X0\nASCALE X2 Y2 Z2\nG2 F100 X10 Y10 I10 J0\n"));

@@ -103,6 +103,10 @@ bool SinumerikInterpreter::TakeOrientation(AxisValues* end, unsigned* named) {
   if (!(axis->norm() > kNoVector)) {
     return Alarm(step_->where, 14112, "an orientation vector of length 0");
   }
+  if (tool_frame()) {
+    Unsupported("an orientation vector under TOROT", step_->where,
+                "where X points is not known (SD42980)");
+  }
   return Reach(*axis, end, named);
 }
 

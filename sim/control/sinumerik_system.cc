@@ -86,12 +86,13 @@ Access Sinumerik840dSystem::ReadFrame(std::string_view name, Indices indices, Si
     const SettableFrame& active = interpreter_->active_settable();
     AffineFrame whole = interpreter_->program_frame();
     if (name == "$P_ACTFRAME") whole = Chained(ToAffine(active), whole);
-    frame = name == "$P_IFRAME" ? active : ToSettable(whole);
+    const bool turned = name == "$P_ACTFRAME" && interpreter_->tool_frame();
+    if (!turned) frame = name == "$P_IFRAME" ? active : ToSettable(whole);
     if (name != "$P_PFRAME") AssumeStated(interpreter_->settable_frame(), active.stated);
   }
   if (!frame) {
-    *message =
-        "reading " + std::string(name) + ", which is mirrored or distorted, was not simulated";
+    *message = "reading " + std::string(name) +
+               ", which is mirrored, distorted or turned by TOROT, was not simulated";
     return Access::kUnknown;
   }
   if (indices.empty()) {

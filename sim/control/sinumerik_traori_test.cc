@@ -163,6 +163,23 @@ TEST(SinumerikTraori, Cycle832MakesTheOrientationToleranceByAFactor) {
   EXPECT_NE(run.Find(Rule::kUnsupportedCode)->message.find("MD33100"), std::string::npos);
 }
 
+TEST(SinumerikTraori, TorotTurnsZAlongTheTool) {
+  // Manual, "TOFRAME, TOROT": Z is the tool's direction; G91 Z25 retracts it, in the machine Z
+  // alone.
+  SinumerikTest control;
+  const TestRun run = control.Run(
+      std::string(kStart) + "ORIAXES G0 X5 Y6 Z7 B30 C40\nTOROT\nG91 Z25\nG90 TOROTOF\nZ50\n");
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  ExpectTip(control, run, 6, Eigen::Vector3d(5, 6, 7) + 25.0 * Axis(30, 40), Axis(30, 40));
+  const motion::JointVector way = run.Last(6).q1() - run.Last(6).q0();
+  EXPECT_NEAR(way[kJointX], 0.0, 1e-9);
+  EXPECT_NEAR(way[kJointY], 0.0, 1e-9);
+  EXPECT_NEAR(way[kJointZ], 25.0, 1e-9);
+  Eigen::Vector3d end = Eigen::Vector3d(5, 6, 7) + 25.0 * Axis(30, 40);
+  end.z() = 50.0;
+  ExpectTip(control, run, 8, end, Axis(30, 40));
+}
+
 TEST(SinumerikTraori, SmoothingTurnsTheToolWithoutCycle832Too) {
   // OTOL; else MD33100, standard value 0.05 deg.
   const TestRun run = SinumerikTest().Run(
@@ -272,7 +289,7 @@ TEST(SinumerikTraori, VectorsTurnWithTheFrameUnderOriwksOnly) {
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
   for (const std::string block :
        {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5", "M77", "POS[X]=1", "G75 FP=1 X0", "TRACYL(40)",
-        "RND=2 X1", "H5", "TOROT", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
+        "RND=2 X1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
     const TestRun run = SinumerikTest().Run(std::string(kStart) + "G1 F500 X1\n" + block + "\n");
     EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << block << run.Text();
   }

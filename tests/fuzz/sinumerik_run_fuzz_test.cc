@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBlocks = 300;
 
-constexpr std::array<std::string_view, 79> kBlocks = {
+constexpr std::array<std::string_view, 81> kBlocks = {
     "G54 G0 G90 X0 Y0 Z50 B0 C0 D1",
     "T2 M6",
     "T=\"BALL\" M6",
@@ -93,6 +93,8 @@ constexpr std::array<std::string_view, 79> kBlocks = {
     "G331 Z-5 K1",
     "G4 F1",
     "POS[C]=IC(5)",
+    "TOROT",
+    "TOROTOF",
     "G64 CYCLE832(0.01,_ORI_ROUGH,1)",
     "G642 COMPCAD CTOL=0.02 OTOL=0.5",
     "$P_UIFR[1]=CTRANS(X,5,Z,-300):CROT(Z,30)",
