@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "post/part_geometry.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "kinematics/great_circle.h"
 
 namespace ncsim::post {
 namespace {
 
-constexpr double kPole = 1e-8;  // rad
+constexpr double kPole = 1e-8;    // rad
+constexpr double kLimit = 1e-9;   // rad: how exactly limits hold
+constexpr double kBranch = 1e-4;  // rad of tilt: nearer branches are at the pole
+
+bool Within(const Rotary& rotary, const kinematics::RotaryLimits& limits) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (rotary[k] < limits.lower[k] - kLimit || rotary[k] > limits.upper[k] + kLimit) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -30,6 +41,11 @@ PartGeometry::PartGeometry(const machine::Machine& machine, const Eigen::Isometr
   zero_ = Linear(X_BP_.translation(), Rotary{});
 }
 
+Rotary PartGeometry::OnGrid(const Rotary& rotary) const {
+  return {std::round(rotary[0] / increment_) * increment_,
+          std::round(rotary[1] / increment_) * increment_};
+}
+
 std::vector<Rotary> PartGeometry::ReachWithin(const Eigen::Vector3d& axis_P, const Rotary& from,
                                               const kinematics::RotaryLimits& limits) const {
   std::vector<Rotary> found;
@@ -39,7 +55,8 @@ std::vector<Rotary> PartGeometry::ReachWithin(const Eigen::Vector3d& axis_P, con
     bool within = true;
     for (std::size_t k = 0; k < num_rotary(); ++k) {
       rotary[k] = std::round(rotary[k] / increment_) * increment_;
-      within = within && rotary[k] >= limits.lower[k] - 1e-9 && rotary[k] <= limits.upper[k] + 1e-9;
+      within =
+          within && rotary[k] >= limits.lower[k] - kLimit && rotary[k] <= limits.upper[k] + kLimit;
     }
     if (within) found.push_back(rotary);
   }
@@ -53,6 +70,52 @@ std::vector<Rotary> PartGeometry::Reach(const Eigen::Vector3d& axis_P, const Rot
 std::vector<Rotary> PartGeometry::ReachAnywhere(const Eigen::Vector3d& axis_P,
                                                 const Rotary& from) const {
   return ReachWithin(axis_P, from, {});
+}
+
+std::optional<PartGeometry::Way> PartGeometry::Follow(const Eigen::Vector3d& axis_P,
+                                                      const Rotary& from,
+                                                      double pole_tolerance) const {
+  using kinematics::GreatCircle;
+  for (const Rotary& to : ReachAnywhere(axis_P, from)) {
+    GreatCircle circle;
+    switch (GreatCircle::Make(*five_axis_, from, to, &circle)) {
+      case GreatCircle::Fault::kNone: {
+        const auto range = circle.RotaryOver(0.0, 1.0);
+        const Rotary lower{range[0].lower, range[1].lower}, upper{range[0].upper, range[1].upper};
+        const Way way{OnGrid(circle.start()), OnGrid(circle.end())};
+        if (Within(lower, limits_) && Within(upper, limits_) && Within(way.end, limits_))
+          return way;
+        return std::nullopt;
+      }
+      case GreatCircle::Fault::kOtherBranch:
+        if (kinematics::AngleFromPole(*five_axis_, from, to) > pole_tolerance) break;
+        [[fallthrough]];
+      case GreatCircle::Fault::kNoTurn:
+      case GreatCircle::Fault::kThroughPole:
+      case GreatCircle::Fault::kNotTwoAxes:
+        if (Within(to, limits_)) return Way{from, to};
+        break;
+      case GreatCircle::Fault::kOpposite:
+      case GreatCircle::Fault::kUnreachable:
+        break;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Rotary> PartGeometry::Between(const Eigen::Vector3d& axis_P, const Rotary& a,
+                                            const Rotary& b) const {
+  const Rotary half{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+  const std::vector<Rotary> reach = Reach(axis_P, half);
+  if (reach.empty()) return std::nullopt;
+  // They are on the same side of the pole, and that is told by the tilt.
+  const auto best =
+      std::min_element(reach.begin(), reach.end(), [&](const Rotary& x, const Rotary& y) {
+        const double tilt_x = std::abs(x[0] - half[0]), tilt_y = std::abs(y[0] - half[0]);
+        if (std::abs(tilt_x - tilt_y) > kBranch) return tilt_x < tilt_y;
+        return std::abs(x[1] - half[1]) < std::abs(y[1] - half[1]);
+      });
+  return *best;
 }
 
 bool PartGeometry::AtPole(const Eigen::Vector3d& axis_P) const {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "kinematics/reachable.h"
@@ -29,11 +30,26 @@ class PartGeometry {
   char letter(std::size_t k) const { return letters_[k]; }
   const kinematics::RotaryLimits& limits() const { return limits_; }
 
+  /// The nearest positions that rotary words can say.
+  Rotary OnGrid(const Rotary& rotary) const;
   /// The rotary positions on the control's grid within the limits for a tool axis, nearest first
   /// (kinematics::ReachableRotary). Empty where it cannot be reached.
   std::vector<Rotary> Reach(const Eigen::Vector3d& axis_P, const Rotary& from) const;
   /// The same without looking at the limits.
   std::vector<Rotary> ReachAnywhere(const Eigen::Vector3d& axis_P, const Rotary& from) const;
+  /// How the rotary axes lead the tool axis along the great circle from where they stand to
+  /// `axis_P`, without a jump, on the control's grid; on to the other branch where the circle comes
+  /// nearer to the pole than `pole_tolerance` (rad). `start`: where they must stand to begin with,
+  /// which is `from` but at the pole, where the second axis is free. nullopt where they would leave
+  /// the limits.
+  struct Way {
+    Rotary start{}, end{};
+  };
+  std::optional<Way> Follow(const Eigen::Vector3d& axis_P, const Rotary& from,
+                            double pole_tolerance) const;
+  /// The positions for a tool axis between those of a and b, which Follow() has joined.
+  std::optional<Rotary> Between(const Eigen::Vector3d& axis_P, const Rotary& a,
+                                const Rotary& b) const;
   /// The second axis is free: the tool axis is parallel to it, within half a millionth of a degree.
   bool AtPole(const Eigen::Vector3d& axis_P) const;
   /// The tool axis at rotary positions.

@@ -46,10 +46,9 @@ class Subdivision {
     }
     if (depth == kDeepest) return false;
     const double t = 0.5 * (a.t + b.t);
-    const Rotary half = Between(a.rotary, b.rotary, 0.5);
-    const std::vector<Rotary> reach = geometry_.Reach(curve_.Axis(t), half);
-    if (reach.empty()) return false;
-    const Node middle{t, reach[0]};
+    const auto rotary = geometry_.Between(curve_.Axis(t), a.rotary, b.rotary);
+    if (!rotary) return false;
+    const Node middle{t, *rotary};
     return Split(a, middle, depth + 1, nodes) && Split(middle, b, depth + 1, nodes);
   }
 
@@ -86,6 +85,34 @@ class Subdivision {
   const ToolCurve& curve_;
   bool chords_;  ///< The tip goes straight from node to node.
 };
+
+/// The tool stands still, and the second axis turns to where the next motion needs it.
+void TurnAtPole(const PartGeometry& geometry, const PlanOptions& options, const MoveFrame& frame,
+                const ClPose& pose, const Rotary& from, const Rotary& to, const ClFeed& feed,
+                std::vector<PlanMove>* moves) {
+  const double turn = std::hypot(to[0] - from[0], to[1] - from[1]);
+  int pieces = 1;
+  if (frame.mode == PlanMode::kAxes) {
+    // The tip is led on chords of its circle about the axis.
+    const double radius = (geometry.Xyz(frame.mode, nullptr, pose.tip_M, from) -
+                           geometry.Xyz(frame.mode, nullptr, pose.tip_M, to))
+                              .norm() /
+                          std::max(1e-9, 2.0 * std::abs(std::sin(0.5 * turn)));
+    const double most =
+        2.0 *
+        std::acos(1.0 - std::min(1.0, kOfTolerance * options.tolerance / std::max(radius, 1e-6)));
+    pieces = static_cast<int>(std::ceil(turn / most));
+  }
+  PlanMove move;
+  move.feed = feed;
+  move.time = turn / pieces / options.turn_rate;
+  move.of_file = false;
+  for (int i = 1; i <= pieces; ++i) {
+    move.end = PoseAt(geometry, frame, pose,
+                      geometry.OnGrid(Between(from, to, static_cast<double>(i) / pieces)));
+    moves->push_back(move);
+  }
+}
 
 /// The arc in the coordinates of the frame, if the mode can carry it there.
 std::optional<PlanArc> ArcOf(const PartGeometry& geometry, const PlanOptions& options,
@@ -135,17 +162,25 @@ bool FeedMoves(const PartGeometry& geometry, const PlanOptions& options, const M
       return true;
     }
   }
+  Rotary begin = from;
+  if (curve.turn() > 0.0) {
+    const auto way = geometry.Follow(end.axis_M, from, 0.5 * options.angle_tolerance);
+    if (way && way->start != from) {
+      TurnAtPole(geometry, options, frame, start, from, way->start, feed, moves);
+      begin = way->start;
+    }
+  }
   std::vector<Subdivision::Node> nodes;
   const Subdivision subdivision(geometry, options, frame, curve, arc.has_value());
   // An arc of half a turn and more looks like a short line from its ends: begin with thirds.
   const int parts = arc ? 3 * (1 + static_cast<int>(arc->sweep / std::numbers::pi)) : 1;
-  Subdivision::Node last{0.0, from};
+  Subdivision::Node last{0.0, begin};
   for (int i = 1; i <= parts; ++i) {
     Subdivision::Node next{static_cast<double>(i) / parts, to};
     if (i < parts) {
-      const auto reach = geometry.Reach(curve.Axis(next.t), Between(from, to, next.t));
-      if (reach.empty()) return false;
-      next.rotary = curve.turn() < kSameAxis ? from : reach[0];
+      const auto between = geometry.Between(curve.Axis(next.t), last.rotary, to);
+      if (!between) return false;
+      next.rotary = curve.turn() < kSameAxis ? begin : *between;
     }
     if (!subdivision.Split(last, next, 0, &nodes)) return false;
     last = next;

@@ -346,7 +346,8 @@ bool Planner::State::PlanSection(const Events& events, const std::vector<Work>& 
   axes.push_back(goes_on ? works[first].start->axis_M : works[first].end.axis_M);
   for (std::size_t i = first; i < last; ++i) axes.push_back(works[i].end.axis_M);
   std::size_t unreachable = 0;
-  const std::vector<RotaryPath> ways = RankRotary(geometry_, axes, rotary_, &unreachable);
+  const std::vector<RotaryPath> ways =
+      RankRotary(geometry_, axes, rotary_, 0.5 * options_.angle_tolerance, &unreachable);
   const auto event_of = [&](std::size_t axis) -> const ClEvent& {
     return events[works[first + (axis == 0 ? 0 : axis - 1)].event];
   };

@@ -31,6 +31,7 @@ struct PlanOptions {
   std::array<PlanAbilities, 3> abilities;  ///< By PlanMode.
   double tolerance = 0.004;                ///< mm: chords, and tips that bow.
   double angle_tolerance = 0.005 * 0.01745329;  ///< rad: tool axes that leave their great circle.
+  double turn_rate = 0.35;                      ///< rad/s: turns with the tool in the part.
   double rewind_retract = 50.0;                 ///< mm along the tool axis.
   /// By ClOperation::index: which of the ranked ways to follow its axes (0: the best). Beyond the
   /// last: the last.

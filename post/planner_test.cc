@@ -182,8 +182,8 @@ TEST(PlannerTest, WhatAModeCannotCarryIsRefusedAtItsLine) {
 // out of the part for it.
 TEST(PlannerTest, ARewindWhereALimitIsMet) {
   Plan plan("bc_table_840d/bc_table_840d.urdf");
-  std::string path = "RAPID\n" + Goto({0, 0, 60}, AxisOf(8, 0));
-  for (int i = 1; i <= 12; ++i) path += Goto({0, 1.0 * i, 60}, AxisOf(8.0 - 2.0 * i, 0));
+  std::string path = "RAPID\n" + Goto({0, 0, 60}, AxisOf(16, 0));
+  for (int i = 1; i <= 16; ++i) path += Goto({0, 1.0 * i, 60}, AxisOf(16.0 - 2.0 * i, 0));
   const Steps& steps = plan.Make(path);
   ASSERT_EQ(plan.FirstError(), "");
   const auto indices = steps.All<PlanIndex>();
@@ -200,9 +200,10 @@ TEST(PlannerTest, ARewindWhereALimitIsMet) {
     EXPECT_LT(std::abs(move->end.rotary[1] - last[1]), 2.0);  // No feed turns C by half a turn.
     last = move->end.rotary;
   }
-  // Where B may stay positive from the first motion, another start needs no rewind.
-  ASSERT_EQ(plan.choices.size(), 1u);
-  EXPECT_GE(plan.choices[0].ways, 1u);
+  // From a lesser tilt the other branch needs none: it is ranked first.
+  path = "RAPID\n" + Goto({0, 0, 60}, AxisOf(8, 0));
+  for (int i = 1; i <= 12; ++i) path += Goto({0, 1.0 * i, 60}, AxisOf(8.0 - 2.0 * i, 0));
+  EXPECT_EQ(plan.Make(path).All<PlanIndex>().size(), 1u);
 }
 
 TEST(PlannerTest, AnotherWayIsTakenWhenAskedFor) {
@@ -244,8 +245,9 @@ void ExpectKeepsToTheFile(const Plan& plan, const Steps& steps, const ClPose& st
       const Eigen::Vector3d u = curve.Axis(t);
       const double angle = std::atan2(plan.geometry.ToolAxis(rotary).cross(u).norm(),
                                       plan.geometry.ToolAxis(rotary).dot(u));
-      // Of the great circle, what one increment of each axis is, and 5e-4 mm of `t`.
-      EXPECT_LT(angle, plan.options.angle_tolerance + 1.5 * kGrid + 1e-5) << t;
+      // The control's own place along the way may be off by the tolerance of the tip.
+      const double ahead = curve.turn() * plan.options.tolerance / way.norm();
+      EXPECT_LT(angle, plan.options.angle_tolerance + kGrid + ahead) << t;
     }
     last = move->end;
   }

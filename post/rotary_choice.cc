@@ -21,16 +21,13 @@ double Travel(const Rotary& a, const Rotary& b) {
 
 class Follower {
  public:
-  Follower(const PartGeometry& geometry, const std::vector<Eigen::Vector3d>& axes)
-      : geometry_(geometry), axes_(axes) {}
+  Follower(const PartGeometry& geometry, const std::vector<Eigen::Vector3d>& axes,
+           double pole_tolerance)
+      : geometry_(geometry), axes_(axes), pole_tolerance_(pole_tolerance) {}
 
   /// Where axis i is met coming from `from`; none where that would leave the limits.
-  std::optional<Rotary> Next(std::size_t i, const Rotary& from) const {
-    const auto anywhere = geometry_.ReachAnywhere(axes_[i], from);
-    const auto within = geometry_.Reach(axes_[i], from);
-    if (anywhere.empty() || within.empty()) return std::nullopt;
-    if (Distance(within[0], from) > Distance(anywhere[0], from) + kSame) return std::nullopt;
-    return within[0];
+  std::optional<PartGeometry::Way> Next(std::size_t i, const Rotary& from) const {
+    return geometry_.Follow(axes_[i], from, pole_tolerance_);
   }
 
   /// How many axes follow axis i continuously when it is met at `start`.
@@ -39,7 +36,7 @@ class Follower {
     while (end + 1 < axes_.size()) {
       const auto next = Next(end + 1, start);
       if (!next) break;
-      start = *next;
+      start = next->end;
       ++end;
     }
     return end - i;
@@ -88,6 +85,7 @@ class Follower {
 
   const PartGeometry& geometry_;
   const std::vector<Eigen::Vector3d>& axes_;
+  double pole_tolerance_;
 };
 
 /// The position for axis i from which most axes follow, of equals the nearest.
@@ -122,8 +120,9 @@ std::optional<RotaryPath> Follow(const Follower& follower, std::size_t count, co
       path.rotary.back() = *again;
       next = follower.Next(i, *again);
     }
-    path.travel += Travel(*next, path.rotary.back());
-    path.rotary.push_back(*next);
+    if (Distance(next->start, path.rotary.back()) > kSame) ++path.pole_turns;
+    path.travel += Travel(next->start, path.rotary.back()) + Travel(next->start, next->end);
+    path.rotary.push_back(next->end);
   }
   return path;
 }
@@ -132,10 +131,10 @@ std::optional<RotaryPath> Follow(const Follower& follower, std::size_t count, co
 
 std::vector<RotaryPath> RankRotary(const PartGeometry& geometry,
                                    const std::vector<Eigen::Vector3d>& axes_P, const Rotary& from,
-                                   std::size_t* unreachable) {
+                                   double pole_tolerance, std::size_t* unreachable) {
   std::vector<RotaryPath> ranked;
   if (axes_P.empty()) return ranked;
-  const Follower follower(geometry, axes_P);
+  const Follower follower(geometry, axes_P, pole_tolerance);
   std::size_t farthest = 0;
   for (const Rotary& start : follower.Starts(0, from)) {
     std::size_t stopped = 0;
@@ -147,7 +146,8 @@ std::vector<RotaryPath> RankRotary(const PartGeometry& geometry,
   }
   if (ranked.empty()) *unreachable = farthest;
   std::stable_sort(ranked.begin(), ranked.end(), [](const RotaryPath& a, const RotaryPath& b) {
-    return std::tuple(a.rewinds.size(), a.travel) < std::tuple(b.rewinds.size(), b.travel);
+    return std::tuple(a.rewinds.size(), a.pole_turns, a.travel) <
+           std::tuple(b.rewinds.size(), b.pole_turns, b.travel);
   });
   return ranked;
 }
