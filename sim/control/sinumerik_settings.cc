@@ -60,7 +60,17 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
     const auto code = source.Text("MD20150[" + std::to_string(group - 1) + "]");
     if (code) settings.start_codes[group] = *code;
   }
+  if (Whole(source, "MD20730", 1) == 0 && job.control.count("MD20150[54]") == 0) {
+    settings.start_codes[55] = "RTLIOF";
+  }
   ReadRotary(source, &settings);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = std::string("MD30330[") + "ABC"[i] + "]";
+    constexpr double kTurn = 360.0;
+    if (settings.rotary[i].modulo && source.Number(name).value_or(kTurn) != kTurn) {
+      log->Assume(name, "taken as 360: another modulo range is not simulated", true);
+    }
+  }
   const int frame_mode = Whole(source, "MD10602", 0);
   settings.rpy = Whole(source, "MD10600", 1) == 1;
   settings.frame_keeps_translations = frame_mode == 1;
@@ -70,11 +80,19 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.circle_error = source.Number("MD21000").value_or(settings.circle_error);
   settings.circle_error_factor = source.Number("MD21010").value_or(settings.circle_error_factor);
   settings.orientation_euler = Whole(source, "MD21100", 1) == 1;
-  settings.orientation_by_g50 = Whole(source, "MD21102", 0) == 1;
+  settings.orientation_by_g50 =
+      Whole(source, "MD21102", 0) == 1 || Whole(source, "MD21103", 0) == 1;
   settings.orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
+  settings.pole_mode = Whole(source, "MD21108", 0);
+  settings.pole_stated = source.Text("MD21108").has_value();
+  if (const auto limit = source.Number("MD24540")) settings.pole_limit = Radians(*limit);
+  settings.limit_mode = Whole(source, "MD21180", 0);
+  settings.tolerance_factors = {std::nullopt, source.Number("SD55443"), source.Number("SD55442"),
+                                source.Number("SD55441"), source.Number("SD55444")};
   settings.m6_changes = Whole(source, "MD22550", 1) == 1;
   settings.incremental_frame = Whole(source, "SD42440", 1) == 1;
   settings.incremental_tool = Whole(source, "SD42442", 1) == 1;
+  settings.length_plane = Whole(source, "SD42940", 0);
   settings.optional_stop = source.Switch("optional_stop").value_or(false);
   if (source.Switch("block_skip").value_or(false)) settings.skip_levels |= 1U;
   for (unsigned level = 1; level <= 9; ++level) {

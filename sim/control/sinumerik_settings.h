@@ -6,8 +6,10 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
+#include "sim/base/units.h"
 #include "sim/control/command.h"
 #include "sim/control/run_log.h"
 #include "sim/control/setting_source.h"
@@ -33,12 +35,19 @@ struct SinumerikSettings {
   double circle_error = 0.01;              ///< MD21000, mm.
   double circle_error_factor = 0.001;      ///< MD21010.
   bool orientation_euler = true;           ///< MD21100.
-  bool orientation_by_g50 = false;         ///< MD21102: group 50 decides on A2, B2, C2.
+  bool orientation_by_g50 = false;         ///< MD21102, MD21103: group 50 decides on A2, B2, C2.
   bool orientation_by_g51 = true;          ///< MD21104: group 51 decides on the path, not group 25.
-  bool m6_changes = true;                  ///< MD22550.
-  bool incremental_frame = true;           ///< SD42440: G91 goes a new frame's shift too.
-  bool incremental_tool = true;            ///< SD42442: likewise a new tool's length.
-  unsigned skip_levels = 0;                ///< Bit n: `/n` is left out.
+  int pole_mode = 0;                       ///< MD21108.
+  double pole_limit = 2.0 * kPi / 180.0;   ///< MD24540, rad: about the pole, what MD21108 is for.
+  bool pole_stated = false;                ///< Whether anybody states MD21108.
+  int limit_mode = 0;                      ///< MD21180.
+  /// SD5544n by the units of CYCLE832's type, where anybody states them: deg for each mm.
+  std::array<std::optional<double>, 5> tolerance_factors{};
+  bool m6_changes = true;         ///< MD22550.
+  bool incremental_frame = true;  ///< SD42440: G91 goes a new frame's shift too.
+  bool incremental_tool = true;   ///< SD42442: likewise a new tool's length.
+  int length_plane = 0;           ///< SD42940: whose plane's axis length 1 counts along.
+  unsigned skip_levels = 0;       ///< Bit n: `/n` is left out.
   bool optional_stop = false;
 };
 

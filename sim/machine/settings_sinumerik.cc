@@ -55,19 +55,23 @@ std::vector<Setting> SinumerikSettings() {
   whole("MD21094", 0, 9999);             // ORIPATH_MODE
   whole("MD21100", 0, 1);                // ORIENTATION_IS_EULER
   whole("MD21102", 0, 1);                // ORI_DEF_WITH_G_CODE
+  whole("MD21103", 0, 1);                // ORI_ANGLE_WITH_G_CODE
   whole("MD21104", 0, 1);                // ORI_IPO_WITH_G_CODE
+  whole("MD21108", 0, 19999);            // POLE_ORI_MODE
   whole("MD21180", 0, 999);              // ROT_AX_SWL_CHECK_MODE
   whole("MD22550", 0, 1);                // TOOL_CHANGE_MODE
   whole("MD24100", 16, 72);              // TRAFO_TYPE_1
+  add("MD24540", SettingKind::kAngle);   // TRAFO5_POLE_LIMIT_1
   for (const char axis : {'A', 'B', 'C'}) {
     const std::string index = std::string("[") + axis + "]";
     whole("MD30310" + index, 0, 1);               // ROT_IS_MODULO
     add("MD30330" + index, SettingKind::kAngle);  // MODULO_RANGE
     whole("MD30455" + index, 0, kMask);           // MISC_FUNCTION_MASK
   }
-  whole("SD42440", 0, 1);                                  // FRAME_OFFSET_INCR_PROG
-  whole("SD42442", 0, 1);                                  // TOOL_OFFSET_INCR_PROG
-  for (const int number : {55440, 55441, 55442, 55443}) {  // MILL_TOL_FACTOR_...
+  whole("SD42440", 0, 1);                                         // FRAME_OFFSET_INCR_PROG
+  whole("SD42442", 0, 1);                                         // TOOL_OFFSET_INCR_PROG
+  whole("SD42940", -19, 19);                                      // TOOL_LENGTH_CONST
+  for (const int number : {55440, 55441, 55442, 55443, 55444}) {  // MILL_TOL_FACTOR_...
     add("SD" + std::to_string(number), SettingKind::kNumber);
   }
   add("block_skip", SettingKind::kSwitch);  // "/" and "/0"
