@@ -276,7 +276,9 @@ void Planner::State::Index(const ClEvent& event, const Rotary& rotary, const ClP
   PlanIndex index;
   index.rotary = rotary;
   index.mode = mode_;
-  index.plane_P = plane_;
+  index.plane_P = mode_ == PlanMode::kTcp
+                      ? geometry_.Directions(PlanMode::kIndexed, nullptr, rotary).transpose()
+                      : plane_;
   index.approach = PoseAt(geometry_, frame(), approach, rotary);
   index.why = why;
   if (why == PlanIndex::Why::kRewind) index.retract = options_.rewind_retract;

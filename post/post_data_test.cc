@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "post/post_options.h"
 #include "post/test_plan.h"
 #include "post/toml_text.h"
 
@@ -74,6 +75,8 @@ TEST(PostDataTest, BracesFormatsAndKeys) {
   EXPECT_THAT(ErrorsOf("cycle_end = ", "cycle_edn = "), HasSubstr("cycle_edn"));
   EXPECT_THAT(ErrorsOf("off = \"M05\", ", ""), HasSubstr("no code 'codes.spindle.off'"));
   EXPECT_THAT(ErrorsOf("cycle_end = \"G80\"", ""), HasSubstr("no block 'cycle_end'"));
+  EXPECT_THAT(ErrorsOf("G00 {X!} {Y!}\n", "G00 {X!}\n"),
+              HasSubstr("block 'index' of mode 'three' prints not all of x, y, z"));
   EXPECT_THAT(ErrorsOf("value = \"x\"", "value = \"xx\""), HasSubstr("'xx' is no number"));
   EXPECT_THAT(ErrorsOf("X = { value = \"x\", format = \"length\" }", ""),
               HasSubstr("no word has the value 'x'"));
@@ -131,6 +134,24 @@ TEST(PostDataTest, IncrementsAndRounding) {
   EXPECT_EQ(post->Mode(PlanMode::kIndexed, "")->name, "indexed");
   EXPECT_EQ(post->Mode(PlanMode::kIndexed, "three")->name, "three");
   EXPECT_EQ(post->Mode(PlanMode::kTcp, "three")->name, "tcp");
+}
+
+TEST(PostDataTest, WhatThePlannerMayUse) {
+  Diagnostics diagnostics;
+  const auto haas = LoadPost(ShippedPost(kUmc750), "p", {}, &diagnostics);
+  const auto table = LoadPost(ShippedPost(kBcTable), "p", {}, &diagnostics);
+  ASSERT_TRUE(haas && table);
+  const PlanOptions any = PlanOptionsOf(*haas, "");
+  EXPECT_FALSE(any.mode);
+  EXPECT_FALSE(any.turned_planes);
+  EXPECT_TRUE(any.abilities[static_cast<std::size_t>(PlanMode::kIndexed)].holes);
+  EXPECT_FALSE(any.abilities[static_cast<std::size_t>(PlanMode::kTcp)].holes);
+  EXPECT_FALSE(any.abilities[static_cast<std::size_t>(PlanMode::kTcp)].arcs[0]);
+  EXPECT_EQ(PlanOptionsOf(*haas, "axes").mode, PlanMode::kAxes);
+  const PlanOptions plane = PlanOptionsOf(*table, "rot");
+  EXPECT_EQ(plane.mode, PlanMode::kIndexed);
+  EXPECT_TRUE(plane.turned_planes);
+  EXPECT_TRUE(plane.abilities[static_cast<std::size_t>(PlanMode::kTcp)].helices);
 }
 
 TEST(TomlTextTest, PlacesInEveryKindOfString) {

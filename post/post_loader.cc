@@ -440,9 +440,24 @@ class PostLoader {
     if (comp[1] || comp[2]) need(Group::kComp, "off");
   }
 
+  /// The writer takes the tool to be where an index was to bring it.
+  void CheckIndex(const TomlTable& table, const PostMode& mode) const {
+    for (const Block block : {Block::kIndex, Block::kRewind}) {
+      const BlockTemplate* found = data_.Find(block, &mode);
+      if (found == nullptr ||
+          (found->Uses(Value::kX) && found->Uses(Value::kY) && found->Uses(Value::kZ))) {
+        continue;
+      }
+      const BlockInfo& info = BlockTable()[static_cast<std::size_t>(block)];
+      table.ErrorAt(table.value(), "block '" + std::string(info.name) + "' of mode '" + mode.name +
+                                       "' prints not all of x, y, z");
+    }
+  }
+
   void CheckBlocks(const TomlTable& table) {
     CheckCodes(table);
     for (const PostMode& mode : data_.modes) {
+      CheckIndex(table, mode);
       for (int b = 0; b < kBlocks; ++b) {
         const BlockInfo& info = BlockTable()[static_cast<std::size_t>(b)];
         const bool needed = info.required || (info.name == "arc" && !mode.arc_planes.empty()) ||

@@ -268,7 +268,10 @@ void NcWriter::Handle(const PlanIndex& index) {
   const bool rewind = index.why == PlanIndex::Why::kRewind;
   if (rewind) {
     EndCycle();
-    if (data_.Find(Block::kRewind, mode_) == nullptr) Problem("the post has no block 'rewind'");
+    if (mode_ == nullptr || data_.Find(Block::kRewind, mode_) == nullptr) {
+      Problem("the post has no block 'rewind'");
+      return;
+    }
   } else {
     Leave();
     mode_ = data_.Mode(index.mode, info_.mode);
@@ -276,6 +279,10 @@ void NcWriter::Handle(const PlanIndex& index) {
       Problem("the post has no mode of the kind that this motion needs");
       return;
     }
+  }
+  const bool turns = Degrees(std::hypot(index.rotary[0], index.rotary[1])) > 1e-9;
+  if (turns && mode_->frame == PostMode::Frame::kFixed && mode_->kind == PlanMode::kIndexed) {
+    Problem("mode '" + mode_->name + "' turns no rotary axis, and the tool axis needs it");
   }
   PlanPose pose = index.approach;
   pose.rotary = index.rotary;

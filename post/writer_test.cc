@@ -316,6 +316,14 @@ TEST(WriterTest, WhatHasNoWordsIsReportedWithItsLine) {
             "part.cls:7: error: the feed is 0 as it is printed\n");
 }
 
+TEST(WriterTest, WhatAModeCannotTurnIsReported) {
+  TestPlan plan;
+  plan.Begin(PlanMode::kIndexed, Pose(0, 0, 5, 45, 0));
+  plan.Write(ShippedPost(kFanuc));
+  EXPECT_EQ(AllOf(plan.diagnostics),
+            "part.cls:2: error: mode 'three' turns no rotary axis, and the tool axis needs it\n");
+}
+
 TEST(WriterTest, OperationsInFilesOfTheirOwn) {
   TestPlan plan;
   plan.Begin(PlanMode::kTcp, Pose(0, 0, 5)).Feed(Pose(1, 0, 5)).Add(PlanEnd{});
