@@ -2,20 +2,11 @@
 #include "post/post_data.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "sim/base/units.h"
 
 namespace ncsim::post {
-namespace {
-
-bool Differ(const std::vector<double>& steps) {
-  return std::any_of(steps.begin(), steps.end(),
-                     [&](double step) { return step != steps.front(); });
-}
-
-}  // namespace
-
 const std::array<BlockInfo, kBlocks>& BlockTable() {
   static const std::array<BlockInfo, kBlocks> table = {{
       {"program_start", kGeneral, true},
@@ -112,7 +103,7 @@ const BlockTemplate* PostData::Cycle(const ClHoleCycle& cycle, bool counter_cloc
     if (with_dwell != cycles.end()) return &with_dwell->second;
   }
   const auto found = cycles.find(wanted);
-  const auto lacks = [&](std::string_view what, Value value) {
+  const auto lacks = [&](std::string_view what, Value value) -> const BlockTemplate* {
     *why = "cycles." + wanted + " of the post prints no {" + std::string(Info(value).name) +
            "}, and the cycle has " + std::string(what);
     return nullptr;
@@ -123,14 +114,17 @@ const BlockTemplate* PostData::Cycle(const ClHoleCycle& cycle, bool counter_cloc
   }
   const BlockTemplate& block = found->second;
   if (dwells && !block.Uses(Value::kHoleDwell)) return lacks("a dwell", Value::kHoleDwell);
-  if (!cycle.steps.empty() && !block.Uses(Value::kHoleStep)) {
-    return lacks("pecks", Value::kHoleStep);
-  }
-  if (Differ(cycle.steps)) {
-    *why = "pecks of different depths have no words in the post";
+  if (cycle.steps.empty()) return &block;
+  const double first = cycle.steps.front(), next = cycle.steps.back();
+  const auto second = std::next(cycle.steps.begin());
+  const bool alike =
+      std::all_of(second, cycle.steps.end(), [&](double step) { return step == next; });
+  if (!alike || first < next) {
+    *why = "pecks have words where they are alike, or the first one is longer";
     return nullptr;
   }
-  return &block;
+  const Value step = first > next ? Value::kHoleFirstStep : Value::kHoleStep;
+  return block.Uses(step) ? &block : lacks("pecks", step);
 }
 
 const WordFormat* PostData::FindWord(Value value) const {

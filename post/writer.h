@@ -89,6 +89,7 @@ class NcWriter : public PlanSink {
   // writer_cycle.cc
   void EndCycle();
   void SetHole(const PlanHole& hole);
+  void SetSteps(const std::vector<double>& steps);
   void BeginCycle(const PlanHole& hole, int along, double level);
   bool GoesOn(const PlanHole& hole, double level) const;
 

@@ -31,8 +31,7 @@ void NcWriter::SetHole(const PlanHole& hole) {
   values_.Set(Value::kHoleBottom, (point + sign * cycle.bottom) / unit);
   values_.Set(Value::kHoleDepth, -cycle.bottom / unit);
   values_.Set(Value::kHoleRetract, (point + sign * retract) / unit);
-  values_.Clear(Value::kHoleStep);
-  if (!cycle.steps.empty()) values_.Set(Value::kHoleStep, cycle.steps.back() / unit);
+  SetSteps(cycle.steps);
   values_.Clear(Value::kHolePitch);
   const double speed = values_.number(Value::kSpeed).value_or(0.0);
   if (cycle.kind == ClCycleKind::kTap && cycle.feed.per_revolution) {
@@ -64,6 +63,23 @@ void NcWriter::SetHole(const PlanHole& hole) {
   Want(Group::kMotion, "rapid");
   // A modal call has its level among its arguments.
   if (!data_.modal_call) Want(Group::kReturn, to_clearance ? "clearance" : "initial");
+}
+
+void NcWriter::SetSteps(const std::vector<double>& steps) {
+  for (const Value value : {Value::kHoleStep, Value::kHoleFirstStep, Value::kHoleNextStep,
+                            Value::kHoleStepFall, Value::kHoleStepFactor}) {
+    values_.Clear(value);
+  }
+  if (steps.empty()) return;
+  const double unit = data_.unit_mm(), first = steps.front(), next = steps.back();
+  if (first == next) {
+    values_.Set(Value::kHoleStep, next / unit);
+    return;
+  }
+  values_.Set(Value::kHoleFirstStep, first / unit);
+  values_.Set(Value::kHoleNextStep, next / unit);
+  values_.Set(Value::kHoleStepFall, (first - next) / unit);
+  values_.Set(Value::kHoleStepFactor, next / first);
 }
 
 bool NcWriter::GoesOn(const PlanHole& hole, double level) const {

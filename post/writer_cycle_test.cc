@@ -81,6 +81,7 @@ TEST(WriterCycleTest, EveryKindOfHaas) {
                           Case{Kind::kCounterSink, 0, 0, "G81 X5. Y0. Z-10. R2. F180."},
                           Case{Kind::kDeep, 0, 2.5, "G83 X5. Y0. Z-10. R2. Q2.5 F180."},
                           Case{Kind::kDeep, 0.2, 2.5, "G83 X5. Y0. Z-10. R2. Q2.5 P0.2 F180."},
+                          Case{Kind::kDeep, 0, -2.5, "G83 X5. Y0. Z-10. R2. I4. J1.5 K2.5 F180."},
                           Case{Kind::kBreakChip, 0, 2.5, "G73 X5. Y0. Z-10. R2. Q2.5 F180."},
                           Case{Kind::kTap, 0, 0, "G84 X5. Y0. Z-10. R2. F180."},
                           Case{Kind::kReam, 0, 0, "G85 X5. Y0. Z-10. R2. F180."},
@@ -90,6 +91,7 @@ TEST(WriterCycleTest, EveryKindOfHaas) {
     cycle->kind = one.kind;
     cycle->dwell = one.dwell;
     if (one.step > 0.0) cycle->steps = {one.step};
+    if (one.step < 0.0) cycle->steps = {4.0, -one.step};  // the first is longer
     TestPlan plan;
     plan.Begin(PlanMode::kIndexed, Pose(0, 0, 2)).Add(Hole(cycle, Pose(5, 0, 0)));
     EXPECT_THAT(Behind(plan.Write(ShippedPost(kUmc750)), "G43 H03 Z2."),
@@ -114,7 +116,7 @@ TEST(WriterCycleTest, WhatACycleCannotSayIsReported) {
   dwell->dwell = 1.0;
   const auto pecks = Drill();
   pecks->kind = ClCycleKind::kDeep;
-  pecks->steps = {5.0, 3.0};
+  pecks->steps = {3.0, 5.0};
   const auto back = Drill();
   back->kind = ClCycleKind::kBoreBack;
   TestPlan plan;
@@ -125,7 +127,7 @@ TEST(WriterCycleTest, WhatACycleCannotSayIsReported) {
   EXPECT_EQ(AllOf(plan.diagnostics),
             "part.cls:3: error: cycles.tap of the post prints no {hole.dwell}, and the cycle has a "
             "dwell\n"
-            "part.cls:4: error: pecks of different depths have no words in the post\n"
+            "part.cls:4: error: pecks have words where they are alike, or the first one is longer\n"
             "part.cls:5: error: the post has no cycles.bore_back\n"
             "part.cls:7: error: mode 'tcp' has no cycles\n");
 }
@@ -155,11 +157,14 @@ TEST(WriterCycleTest, DeepHolesAndTapsOfThe840D) {
   TestPlan plan;
   plan.modal().spindle.speed = 500.0;
   plan.Share().Begin(PlanMode::kIndexed, Pose(0, 0, 10));
-  plan.Add(Hole(deep, Pose(5, 0, 0), 10.0)).Add(Hole(tap, Pose(5, 0, 0), 10.0));
+  const auto pecks = std::make_shared<ClHoleCycle>(*deep);
+  pecks->steps = {4.0, 3.0};  // each three quarters of the one before, 3 at least
+  plan.Add(Hole(deep, Pose(5, 0, 0), 10.0)).Add(Hole(pecks, Pose(5, 0, 0), 10.0));
+  plan.Add(Hole(tap, Pose(5, 0, 0), 10.0));
   const auto lines = plan.Write(ShippedPost(kBcTable), {}, "three");
   EXPECT_THAT(
       Behind(lines, "Z10."),
-      ElementsAre("F180.", "MCALL CYCLE83(10.,0.,2.,-10.,,,4.,0,,0,1,1)", "X5. Y0.", "MCALL",
+      ElementsAre("F180.", "MCALL CYCLE83(10.,0.,2.,-10.,,,4.,,,0,1,1,,)", "X5. Y0.", "MCALL",
                   "MCALL CYCLE84(10.,0.,2.,-10.,,0,3,,1.25,0,500,500)", "G0 X5. Y0."));
   EXPECT_EQ(AllOf(plan.diagnostics), "");
 }
