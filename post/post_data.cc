@@ -123,6 +123,8 @@ const BlockTemplate* PostData::Cycle(const ClHoleCycle& cycle, bool counter_cloc
     *why = "pecks have words where they are alike, or the first one is longer";
     return nullptr;
   }
+  // The shorter one for all is no deeper peck than the file's.
+  if (first > next && block.Uses(Value::kHoleNextStep)) return &block;
   const Value step = first > next ? Value::kHoleFirstStep : Value::kHoleStep;
   return block.Uses(step) ? &block : lacks("pecks", step);
 }

@@ -161,7 +161,8 @@ void NcWriter::Start() {
   started_ = true;
   values_.Set(Value::kProgramName, info_.name);
   if (info_.number) values_.Set(Value::kProgramNumber, static_cast<double>(*info_.number));
-  values_.Set(Value::kProgramSource, info_.source);
+  // Without its folder: the same file gives the same program anywhere.
+  values_.Set(Value::kProgramSource, info_.source.substr(info_.source.find_last_of("/\\") + 1));
   values_.Set(Value::kProgramMode, info_.mode);
   Want(Group::kUnit, data_.unit == ClUnit::kInch ? "inch" : "mm");
   Emit(Block::kProgramStart);

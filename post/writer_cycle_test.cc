@@ -100,6 +100,16 @@ TEST(WriterCycleTest, EveryKindOfHaas) {
   }
 }
 
+TEST(WriterCycleTest, APostMayTakeTheShorterPeckForAll) {
+  const auto deep = Drill();
+  deep->kind = ClCycleKind::kDeep;
+  deep->steps = {4.0, 2.5};
+  TestPlan plan;
+  plan.Begin(PlanMode::kIndexed, Pose(0, 0, 2)).Add(Hole(deep, Pose(5, 0, 0)));
+  EXPECT_THAT(Behind(plan.Write(ShippedPost(kFanuc)), "G43 H03 Z2."),
+              ElementsAre("G99 G83 X5. Y0. Z-10. R2. Q2.5 F180."));
+}
+
 TEST(WriterCycleTest, ALeftHandTapIsAnotherCode) {
   const auto tap = Drill();
   tap->kind = ClCycleKind::kTap;
@@ -165,7 +175,8 @@ TEST(WriterCycleTest, DeepHolesAndTapsOfThe840D) {
   EXPECT_THAT(
       Behind(lines, "Z10."),
       ElementsAre("F180.", "MCALL CYCLE83(10.,0.,2.,-10.,,,4.,,,0,1,1,,)", "X5. Y0.", "MCALL",
-                  "MCALL CYCLE84(10.,0.,2.,-10.,,0,3,,1.25,0,500,500)", "G0 X5. Y0."));
+                  "F180.", "MCALL CYCLE83(10.,0.,2.,-10.,,,4.,-.75,,0,1,1,,3.)", "G0 X5. Y0.",
+                  "MCALL", "MCALL CYCLE84(10.,0.,2.,-10.,,0,3,,1.25,0,500,500)", "G0 X5. Y0."));
   EXPECT_EQ(AllOf(plan.diagnostics), "");
 }
 
