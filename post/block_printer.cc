@@ -31,6 +31,7 @@ struct BlockPrinter::Line {
   bool has_names = false;
   bool printed = false;  ///< One of them.
   bool stays = false;    ///< One that counts.
+  std::string missing;   ///< The name of a value that a text is written around.
   bool swallow = false;  ///< The blank behind a name that printed nothing goes with it.
 };
 
@@ -73,6 +74,10 @@ class BlockPrinter::Run {
       printer_.memory_ = before_;
       return;
     }
+    if (!line_.missing.empty()) {
+      problems_->push_back("'" + line_.missing + "' has no value here, in the line '" + line_.text +
+                           "' (in {? } it could vanish)");
+    }
     while (!line_.text.empty() && line_.text.back() == ' ') line_.text.pop_back();
     lines_.push_back(std::move(line_.text));
   }
@@ -112,6 +117,11 @@ class BlockPrinter::Run {
   void Nothing() {
     line_.has_names = true;
     line_.swallow = true;
+  }
+  /// Fine where the line or the optional part vanishes, or where something else stands for it.
+  void NoValue(Value value) {
+    Nothing();
+    if (!optional_) line_.missing = Info(value).name;
   }
   void Printed(std::string_view text, bool counts) {
     line_.has_names = true;
@@ -161,7 +171,7 @@ class BlockPrinter::Run {
     }
     const std::optional<double>& number = values_.number(value);
     if (!number) {
-      Nothing();
+      NoValue(value);
     } else if (node.format < 0) {
       NumberFormat plain;
       plain.decimals = 4;
@@ -176,7 +186,7 @@ class BlockPrinter::Run {
   void AddText(Value value, bool in_comment) {
     const std::string& text = values_.text(value);
     if (text.empty()) {
-      Nothing();
+      NoValue(value);
       return;
     }
     if (in_comment) {
@@ -195,7 +205,9 @@ class BlockPrinter::Run {
     const Line outer = line_;
     const Memory memory = printer_.memory_;
     line_.has_names = line_.printed = false;
+    const bool nested = std::exchange(optional_, true);
     for (const TemplateNode& child : node.children) Add(child);
+    optional_ = nested;
     const bool vanishes = line_.has_names && !line_.printed;
     if (vanishes) {
       printer_.memory_ = memory;
@@ -214,6 +226,7 @@ class BlockPrinter::Run {
   std::vector<std::string>* problems_;
   Line line_;
   Memory before_;
+  bool optional_ = false;
   std::vector<std::string> together_;
   std::vector<std::string> lines_;
 };
@@ -317,7 +330,7 @@ void BlockPrinter::Forget(Group group) { memory_.codes[static_cast<std::size_t>(
 void BlockPrinter::AxisIs(const Values& values) {
   for (std::size_t i = 0; i < data_.words.size(); ++i) {
     const WordFormat& word = data_.words[i];
-    if (word.value >= Value::kAxisX && word.value <= Value::kAxisZ) {
+    if (word.value >= Value::kRotary1 && word.value <= Value::kAxisZ) {
       memory_.words[i] = TextOf(word, values);
     }
   }

@@ -37,7 +37,7 @@ class BlockPrinter {
   void ForgetFeeds();
   void Forget(Value value);
   void Forget(Group group);
-  /// The tool axis is there, by other words.
+  /// Rotary axes and tool axis are there, by other words.
   void AxisIs(const Values& values);
   /// Spindle and coolant are off.
   void SwitchedOff();

@@ -114,7 +114,11 @@ const BlockTemplate* PostData::Cycle(const ClHoleCycle& cycle, bool counter_cloc
   }
   const BlockTemplate& block = found->second;
   if (dwells && !block.Uses(Value::kHoleDwell)) return lacks("a dwell", Value::kHoleDwell);
-  if (cycle.steps.empty()) return &block;
+  if (cycle.steps.empty()) {
+    if (!block.Uses(Value::kHoleStep)) return &block;
+    *why = "the cycle has no depth of its pecks";
+    return nullptr;
+  }
   const double first = cycle.steps.front(), next = cycle.steps.back();
   const auto second = std::next(cycle.steps.begin());
   const bool alike =

@@ -105,7 +105,12 @@ struct PostMode {
 
 /// What an entry of [texts] or [functions] does.
 struct PostText {
-  enum class What : std::uint8_t { kIgnore, kComment, kBlock } what = What::kIgnore;
+  enum class What : std::uint8_t {
+    kIgnore,
+    kComment,
+    kWords,  ///< As it is where it is NC words, else a comment and a warning.
+    kBlock,
+  } what = What::kIgnore;
   BlockTemplate block;  ///< kBlock.
 };
 

@@ -75,8 +75,9 @@ TEST(PostDataTest, BracesFormatsAndKeys) {
   EXPECT_THAT(ErrorsOf("cycle_end = ", "cycle_edn = "), HasSubstr("cycle_edn"));
   EXPECT_THAT(ErrorsOf("off = \"M05\", ", ""), HasSubstr("no code 'codes.spindle.off'"));
   EXPECT_THAT(ErrorsOf("cycle_end = \"G80\"", ""), HasSubstr("no block 'cycle_end'"));
-  EXPECT_THAT(ErrorsOf("G00 {X!} {Y!}\n", "G00 {X!}\n"),
-              HasSubstr("block 'index' of mode 'three' prints not all of x, y, z"));
+  EXPECT_THAT(
+      ErrorsOf("G00 {X!} {Y!}\n", "G00 {X!}\n"),
+      HasSubstr("block 'index' of mode 'three' prints not all of x, y, z and the rotary axes"));
   EXPECT_THAT(ErrorsOf("value = \"x\"", "value = \"xx\""), HasSubstr("'xx' is no number"));
   EXPECT_THAT(ErrorsOf("X = { value = \"x\", format = \"length\" }", ""),
               HasSubstr("no word has the value 'x'"));

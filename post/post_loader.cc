@@ -395,6 +395,10 @@ class PostLoader {
     } else if (value->kind == TomlValue::Kind::kString && value->text == "comment") {
       table->Get(key);
       text.what = PostText::What::kComment;
+    } else if (value->kind == TomlValue::Kind::kString && value->text == "words" &&
+               scopes == kTextBlock) {
+      table->Get(key);
+      text.what = PostText::What::kWords;
     } else if (auto block = Template(table, key, scopes)) {
       text.what = PostText::What::kBlock;
       text.block = std::move(*block);
@@ -440,17 +444,18 @@ class PostLoader {
     if (comp[1] || comp[2]) need(Group::kComp, "off");
   }
 
-  /// The writer takes the tool to be where an index was to bring it.
+  /// The writer takes tool and rotary axes to be where an index was to bring them.
   void CheckIndex(const TomlTable& table, const PostMode& mode) const {
     for (const Block block : {Block::kIndex, Block::kRewind}) {
       const BlockTemplate* found = data_.Find(block, &mode);
-      if (found == nullptr ||
-          (found->Uses(Value::kX) && found->Uses(Value::kY) && found->Uses(Value::kZ))) {
-        continue;
-      }
+      if (found == nullptr) continue;
+      const bool turns = found->Uses(Value::kRotary1) || found->Uses(Value::kPlaneXyzX) ||
+                         data_.FindWord(Value::kRotary1) == nullptr;
+      const bool moves = found->Uses(Value::kX) && found->Uses(Value::kY) && found->Uses(Value::kZ);
+      if (turns && moves) continue;
       const BlockInfo& info = BlockTable()[static_cast<std::size_t>(block)];
       table.ErrorAt(table.value(), "block '" + std::string(info.name) + "' of mode '" + mode.name +
-                                       "' prints not all of x, y, z");
+                                       "' prints not all of x, y, z and the rotary axes");
     }
   }
 

@@ -33,6 +33,24 @@ std::string_view KeyOf(cl::Coolant::Mode mode) {
   return "";
 }
 
+/// G04 P1., M08, G0X1.Y-2: letters with a number each.
+bool AreWords(std::string_view text) {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    if (text[i] == ' ') {
+      ++i;
+      continue;
+    }
+    if (text[i] < 'A' || text[i] > 'Z') return false;
+    ++i;
+    if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
+    const std::size_t begin = i;
+    while (i < text.size() && ((text[i] >= '0' && text[i] <= '9') || text[i] == '.')) ++i;
+    if (i == begin) return false;
+  }
+  return !text.empty();
+}
+
 }  // namespace
 
 NcWriter::NcWriter(const PostData& data, ProgramInfo info, Diagnostics* diagnostics,
@@ -355,7 +373,15 @@ void NcWriter::Handle(const cl::Stop& stop) {
 }
 
 void NcWriter::Apply(const PostText& text, const std::string& comment) {
-  if (text.what == PostText::What::kComment) {
+  if (text.what == PostText::What::kWords && AreWords(comment)) {
+    EndCycle();
+    printer_.Written(comment);
+    output_.Write(comment);
+  } else if (text.what == PostText::What::kComment || text.what == PostText::What::kWords) {
+    if (text.what == PostText::What::kWords) {
+      diagnostics_->Warning(info_.source, where_.line, where_.column,
+                            "'" + comment + "' is no NC words: it is printed as a comment");
+    }
     values_.Set(Value::kText, comment);
     Emit(Block::kComment);
   } else if (text.what == PostText::What::kBlock) {

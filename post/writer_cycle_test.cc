@@ -127,11 +127,14 @@ TEST(WriterCycleTest, WhatACycleCannotSayIsReported) {
   const auto pecks = Drill();
   pecks->kind = ClCycleKind::kDeep;
   pecks->steps = {3.0, 5.0};
+  const auto whole = Drill();
+  whole->kind = ClCycleKind::kDeep;
   const auto back = Drill();
   back->kind = ClCycleKind::kBoreBack;
   TestPlan plan;
   plan.Begin(PlanMode::kIndexed, Pose(0, 0, 2)).Add(Hole(dwell, Pose(5, 0, 0)));
   plan.Add(Hole(pecks, Pose(5, 0, 0))).Add(Hole(back, Pose(5, 0, 0)));
+  plan.Add(Hole(whole, Pose(5, 0, 0)));
   plan.Index(PlanMode::kTcp, Pose(0, 0, 2)).Add(Hole(Drill(), Pose(5, 0, 0)));
   plan.Write(ShippedPost(kUmc750));
   EXPECT_EQ(AllOf(plan.diagnostics),
@@ -139,7 +142,8 @@ TEST(WriterCycleTest, WhatACycleCannotSayIsReported) {
             "dwell\n"
             "part.cls:4: error: pecks have words where they are alike, or the first one is longer\n"
             "part.cls:5: error: the post has no cycles.bore_back\n"
-            "part.cls:7: error: mode 'tcp' has no cycles\n");
+            "part.cls:6: error: the cycle has no depth of its pecks\n"
+            "part.cls:8: error: mode 'tcp' has no cycles\n");
 }
 
 TEST(WriterCycleTest, AModalCallAndItsPositions) {

@@ -286,14 +286,18 @@ TEST(WriterTest, WhatTheFileSaysToThePost) {
                     "check (the) \xc3\xa9"
                     "dge"});
   plan.Add(cl::Text{cl::Text::Kind::kInsert, "G01 X7. F99."});
+  plan.Add(cl::Text{cl::Text::Kind::kInsert, "STOCK SIZE X85. Y38."});
   plan.Feed(Pose(5, 0, 5));
   plan.Add(cl::Code{'M', 51.0, false}).Add(cl::Code{'M', 61.0, true});
   plan.Feed(Pose(6, 0, 5));
   plan.Add(ClDwell{16.0, true});
   EXPECT_THAT(Behind(plan.Write(ShippedPost(kUmc750)), "G43 H03 Z5."),
               // 16 revolutions at 8000 a minute: 0.12 s.
-              ElementsAre("(CHECK -THE- -DGE)", "G01 X7. F99.", "X5. F600.", "M51", "M61 X6.",
-                          "G04 P0.12"));
+              ElementsAre("(CHECK -THE- -DGE)", "G01 X7. F99.", "(STOCK SIZE X85. Y38.)",
+                          "X5. F600.", "M51", "M61 X6.", "G04 P0.12"));
+  EXPECT_EQ(AllOf(plan.diagnostics),
+            "part.cls:5: warning: 'STOCK SIZE X85. Y38.' is no NC words: it is printed as a "
+            "comment\n");
 }
 
 TEST(WriterTest, WhatHasNoWordsIsReportedWithItsLine) {
@@ -314,6 +318,26 @@ TEST(WriterTest, WhatHasNoWordsIsReportedWithItsLine) {
             "part.cls:4: error: the post has no code for coolant through (codes.coolant)\n"
             "part.cls:6: error: a constant surface speed has no words in the post\n"
             "part.cls:7: error: the feed is 0 as it is printed\n");
+}
+
+TEST(WriterTest, AnAddressWithoutItsValueIsReported) {
+  std::string post = ShippedPost(kFanuc);
+  const std::string from = "T{tool.number} M06";
+  post.replace(post.find(from), from.size(), from + "\nG65 P1 A{tool.diameter} {?B{tool.length}}");
+  TestPlan plan;
+  plan.Begin(PlanMode::kIndexed, Pose(0, 0, 5));
+  plan.tool().length = 80.0;
+  plan.Share().Begin(PlanMode::kIndexed, Pose(0, 0, 5));
+  plan.Write(post);
+  EXPECT_EQ(AllOf(plan.diagnostics),
+            "part.cls:3: error: 'tool.diameter' has no value here, in the line 'G65 P1 A B80.' (in "
+            "{? } it could vanish)\n");
+}
+
+TEST(WriterTest, TheControlTurnsTheTablesOfCycle800) {
+  TestPlan plan;
+  plan.Begin(PlanMode::kIndexed, Pose(0, 0, 5, 30, 20)).Rapid(Pose(1, 0, 5, 30, 20));
+  EXPECT_THAT(Behind(plan.Write(ShippedPost(kBcTable)), "Z5."), ElementsAre("X1."));
 }
 
 TEST(WriterTest, WhatAModeCannotTurnIsReported) {
