@@ -60,7 +60,6 @@ class WordScanner {
     const std::size_t begin = at_;
     while (IsLetter(Peek())) ++at_;
     const bool one_letter = at_ == begin + 1;
-    const std::size_t letters_end = at_;
     while (IsDigit(Peek()) || (!one_letter && IsLetter(Peek()))) ++at_;
     const std::string name = Upper(text_.substr(begin, at_ - begin));
     std::size_t equals = at_;
@@ -70,7 +69,7 @@ class WordScanner {
       SkipValue();
       words_.push_back({name + "=", ""});
       // Z=_Z_HOME is a Z all the same.
-      if (one_letter && letters_end == begin + 1) words_.push_back({name.substr(0, 1), ""});
+      if (name.size() == 1) words_.push_back({name, ""});
     } else if (one_letter) {
       SkipNumber();
       words_.push_back({name.substr(0, 1), CodeOf(text_.substr(begin, at_ - begin))});
