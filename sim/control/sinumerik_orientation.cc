@@ -2,6 +2,7 @@
 // The tool's orientation under TRAORI: A3 B3 C3, A2 B2 C2, and how it goes from block to block (NC
 // programming 12/2019, "Tool orientation"; MD21100 to MD21108, MD21180, MD24540).
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -151,6 +152,12 @@ Eigen::Vector3d SinumerikInterpreter::InTable(const Eigen::Vector3d& axis) {
 bool SinumerikInterpreter::Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named) {
   const kinematics::FiveAxis& five_axis = parts_.frames->five_axis();
   const Eigen::Vector3d u_B = InTable(axis);
+  // A program repeats its vector from block to block: then nothing turns, not even by rounding.
+  AxisValues here = position_;
+  for (std::size_t i = kA; i < kNumAxes; ++i) here[i] += frame_->offset[i];
+  Eigen::Vector3d p_B, now_B;
+  five_axis.TipInTable(axes_.Joints(here), 0.0, &p_B, &now_B);
+  if (now_B.cross(u_B).norm() < kSame && now_B.dot(u_B) > 0.0) return true;
   const std::array<double, 2> from = RotaryJoints(position_);
   const auto all = kinematics::ReachableRotary(five_axis, u_B, from, {});
   if (all.empty()) {
@@ -224,7 +231,8 @@ void SinumerikInterpreter::PassPole() {
   const kinematics::FiveAxis& five_axis = parts_.frames->five_axis();
   const std::array<double, 2> from = RotaryJoints(position_);
   const std::array<double, 2> to = RotaryJoints(command_.end);
-  if (five_axis.rotary().size() < 2 || from == to) return;
+  const double turn = std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
+  if (five_axis.rotary().size() < 2 || turn < kSame) return;
   GreatCircle circle;
   const GreatCircle::Fault fault = GreatCircle::Make(five_axis, from, to, &circle);
   const int mode = settings_.pole_mode;

@@ -234,6 +234,23 @@ TEST(SinumerikTraori, FromThePoleTheAxesGoInProportionOrCTurnsFirst) {
   }
 }
 
+TEST(SinumerikTraori, ARepeatedVectorTurnsNothing) {
+  // As posts write them: in every block. The rotary axes keep their bits, also behind a circle that
+  // has led C on past 360 deg with a work offset of C.
+  SinumerikTest control;
+  control.SetOffset("G54", {{'X', 10.0}, {'Y', 20.0}, {'Z', -250.0}, {'C', 33.3}});
+  const std::string vector = " A3=0.3 B3=-0.05 C3=1\n";
+  const TestRun run = control.Run(
+      std::string(kStart) + "ORIVECT G1 F500 A3=0.3 B3=0.1 C3=1\nX1" + vector + "X2" + vector +
+      "X3 A3=0.6 B3=-0.1 C3=2\nA3=0.3 B3=0.2 C3=1\n" + "X5 B21 C10\nX6 B21 C10\nX7" + vector);
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  for (const int line : {6, 7, 10}) {
+    const motion::Motion& motion = run.Last(line);
+    EXPECT_EQ(motion.q0()[kJointB], motion.q1()[kJointB]) << line;
+    EXPECT_EQ(motion.q0()[kJointC], motion.q1()[kJointC]) << line;
+  }
+}
+
 TEST(SinumerikTraori, ThroughThePoleAndBesideIt) {
   // B10 to 5 degrees on the other side: through the pole, B-5. From B10 C0 to a tilt of 10 at 120:
   // the circle keeps atan(tan 10 cos 60) = 5.04 degrees off, so that C turns all the way.
