@@ -211,10 +211,19 @@ bool SinumerikInterpreter::WithinLimits(const Eigen::Vector3d& u_B,
   const int units = settings_.limit_mode % 10;
   const auto others = kinematics::ReachableRotary(five_axis, u_B, from, limits);
   if (others.empty()) return Alarm(step_->where, 10720, position + ", and there is no other way");
-  if (units == 0 || (units == 1 && led)) {
+  const bool stops = units == 0 || (units == 1 && led);
+  if (stops && settings_.limit_mode_stated) {
     return Alarm(step_->where, 10720,
                  position + "; " + written(others[0].angles) + " would do, but MD21180 = " +
                      std::to_string(settings_.limit_mode) + " does not let the control take it");
+  }
+  if (stops) {
+    log_.ReportOnce("MD21180", Rule::kUnsupportedCode, step_->where,
+                    position +
+                        "; the control stops there with alarm 10720 (MD21180 = 0), or goes "
+                        "to " +
+                        written(others[0].angles) +
+                        ", as simulated (MD21180 = 2): state MD21180 in the job");
   }
   if (settings_.limit_mode >= 10) {
     Unsupported("MD21180 = " + std::to_string(settings_.limit_mode), step_->where, position);

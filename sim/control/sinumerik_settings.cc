@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/sinumerik_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -32,6 +33,14 @@ std::string MeaningOf(const std::string& name) {
 int Whole(const SettingSource& source, const std::string& name, int standard) {
   const auto value = source.Number(name);
   return value ? static_cast<int>(std::lround(*value)) : standard;
+}
+
+/// By the job, or by a model that does not call it nominal.
+bool IsStated(const std::string& name, const SettingSource& source, const machine::Machine& machine,
+              const machine::Job& job) {
+  const auto& nominal = machine.control.nominal_settings;
+  const bool read = std::find(nominal.begin(), nominal.end(), name) == nominal.end();
+  return job.control.count(name) != 0 || (read && source.Text(name).has_value());
 }
 
 void ReadRotary(const SettingSource& source, SinumerikSettings* settings) {
@@ -87,6 +96,7 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.pole_stated = source.Text("MD21108").has_value();
   if (const auto limit = source.Number("MD24540")) settings.pole_limit = Radians(*limit);
   settings.limit_mode = Whole(source, "MD21180", 0);
+  settings.limit_mode_stated = IsStated("MD21180", source, machine, job);
   settings.tolerance_factors = {std::nullopt, source.Number("SD55443"), source.Number("SD55442"),
                                 source.Number("SD55441"), source.Number("SD55444")};
   settings.m6_changes = Whole(source, "MD22550", 1) == 1;

@@ -41,6 +41,7 @@ struct SinumerikSettings {
   double pole_limit = 2.0 * kPi / 180.0;   ///< MD24540, rad: about the pole, what MD21108 is for.
   bool pole_stated = false;                ///< Whether anybody states MD21108.
   int limit_mode = 0;                      ///< MD21180.
+  bool limit_mode_stated = false;          ///< Not only by a nominal model.
   /// SD5544n by the units of CYCLE832's type, where anybody states them: deg for each mm.
   std::array<std::optional<double>, 5> tolerance_factors{};
   bool m6_changes = true;         ///< MD22550.

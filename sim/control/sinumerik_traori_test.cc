@@ -280,6 +280,13 @@ TEST(SinumerikTraori, BehindTheLimitsMd21180Decides) {
   SinumerikTest control;
   const std::string text = std::string(kStart) + "ORIAXES G1 F500 A3=-1 C3=1 X1\n";
   TestRun run = control.Run(text);
+  // Nobody has read it off the machine: not known, and simulated at the other position.
+  ASSERT_EQ(run.findings.size(), 1u) << run.Text();
+  EXPECT_EQ(run.findings[0].rule, Rule::kUnsupportedCode);
+  EXPECT_NE(run.findings[0].message.find("10720"), std::string::npos) << run.Text();
+  ExpectTip(control, run, 4, {1, 0, 20}, Axis(45, 180));
+  control.job.control["MD21180"] = "0";
+  run = control.Run(text);
   ASSERT_TRUE(run.Has(Rule::kControlAlarm)) << run.Text();
   const std::string& message = run.Find(Rule::kControlAlarm)->message;
   for (const char* words :
