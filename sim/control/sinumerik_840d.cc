@@ -92,9 +92,11 @@ RunSummary RunSinumerik840d(std::shared_ptr<const nc::Program> program,
     if (event == SinumerikEvent::kRestore) interpreter.Restore();
     if (event != SinumerikEvent::kStep) continue;
     interpreter.Execute(&step);
-    if (log.stopped() || !interpreter.moved()) continue;
-    const SinumerikModalCall* call = flow.PathMotionDone();
-    if (call != nullptr) interpreter.ExecuteCycle(*call->command, call->arguments, call->where);
+    do {
+      if (log.stopped() || !interpreter.moved()) continue;
+      const SinumerikModalCall* call = flow.PathMotionDone();
+      if (call != nullptr) interpreter.ExecuteCycle(*call->command, call->arguments, call->where);
+    } while (interpreter.NextPosition());
   }
   interpreter.Finish();
   log.Finish();

@@ -83,6 +83,10 @@ void SinumerikInterpreter::ExecuteMotion() {
   const bool suppressed = suppress_ != nullptr;
   if (suppressed) {
     if (!Is(kSinComp, "G40")) Unsupported(suppress_->name, step_->where, "with G41 or G42 active");
+    if (swivel_.active && suppress_->name == "G53") {
+      Unsupported("G53 while CYCLE800 is active", step_->where,
+                  "it leaves the rotation of the tables (PAROT) in force");
+    }
     UseFrame(SuppressedFrame());
     command_.frame = frame_;
   }

@@ -75,6 +75,13 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.m6_changes = Whole(source, "MD22550", 1) == 1;
   settings.incremental_frame = Whole(source, "SD42440", 1) == 1;
   settings.incremental_tool = Whole(source, "SD42442", 1) == 1;
+  if (const auto mask = source.Number("SD55221")) {
+    settings.swivel_mask = static_cast<unsigned>(std::lround(*mask));
+  }
+  settings.swivel_reference = Whole(source, "swivel_reference", 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    settings.swivel_retract[i] = source.Number("TC_CARR" + std::to_string(38 + i));
+  }
   settings.optional_stop = source.Switch("optional_stop").value_or(false);
   if (source.Switch("block_skip").value_or(false)) settings.skip_levels |= 1U;
   for (unsigned level = 1; level <= 9; ++level) {

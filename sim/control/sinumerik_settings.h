@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "sim/control/command.h"
@@ -38,7 +39,10 @@ struct SinumerikSettings {
   bool m6_changes = true;                  ///< MD22550.
   bool incremental_frame = true;           ///< SD42440: G91 goes a new frame's shift too.
   bool incremental_tool = true;            ///< SD42442: likewise a new tool's length.
-  unsigned skip_levels = 0;                ///< Bit n: `/n` is left out.
+  std::optional<unsigned> swivel_mask;     ///< SD55221.
+  int swivel_reference = 0;  ///< Rotary axis that _DIR refers to, 1 or 2; 0: unstated.
+  std::array<std::optional<double>, 3> swivel_retract;  ///< $TC_CARR38 to 40: X, Y, Z; mm.
+  unsigned skip_levels = 0;                             ///< Bit n: `/n` is left out.
   bool optional_stop = false;
 };
 
