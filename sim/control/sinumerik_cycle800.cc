@@ -28,9 +28,11 @@ bool IsZero(const SettableFrame& frame) {
 /// "" or what keeps CYCLE800 from being simulated here.
 std::string SinumerikInterpreter::CannotSwivel(const SinumerikCycleArguments& arguments) const {
   if (traori_) return "under TRAORI";
+  if (arguments.empty()) return "";
   if (!Is(kSinComp, "G40")) return "with G41 or G42";
-  if (!parts_.frames->can_rotate() || !parts_.frames->tool_is_upright()) {
-    return "on a machine whose tool turns";
+  const bool tables = parts_.frames->can_rotate() && parts_.frames->tool_is_upright();
+  if (!tables || parts_.frames->five_axis().rotary().size() != 2) {
+    return "on a machine without two rotary tables";
   }
   if (!IsZero(modal_.settable)) return "with a turned work offset (alarm 62186)";
   const AxisValues shift = modal_.settable.shift();
@@ -231,6 +233,7 @@ void SinumerikInterpreter::TurnTables(const AxisValues& target, bool tracks) {
   if (!tracks) return PushMachine(CommandKind::kMachineRapid, named, target);
   Frame frame = SuppressedFrame();
   frame.offset = modal_.settable.shift();
+  frame.offset_index = frame_->offset_index;
   frame.tool_length = active_.length;
   frame.rotation = Frame::Rotation::kTcp;
   UseFrame(frame);

@@ -95,20 +95,26 @@ void SinumerikInterpreter::Drill(const SinumerikCycleArguments& arguments,
 void SinumerikInterpreter::MakePattern(const SinumerikCycleArguments& arguments,
                                        const SourcePosition& where) {
   const std::string name(arguments.cycle().name);
+  if (!holes_.empty()) return Unsupported(name + " within a modal call at holes", where);
   SinumerikCycleAlarm alarm;
   std::string unsupported;
-  auto holes = SinumerikHoles(arguments, plane_, position_, &alarm, &unsupported);
+  const auto holes = SinumerikHoles(arguments, plane_, position_, &alarm, &unsupported);
   if (!unsupported.empty()) return Unsupported(name + " with " + unsupported, where);
   if (!holes) {
     Alarm(where, alarm.number, name + ": " + alarm.text);
     return;
   }
   holes_.assign(holes->rbegin(), holes->rend());
+  holes_where_ = where;
 }
 
 bool SinumerikInterpreter::NextPosition() {
   moved_ = false;
   if (holes_.empty() || log_.stopped()) return false;
+  if (frame_dirty_) RefreshFrame();
+  UpdatePrototype();
+  BeforeLinearMotion();
+  if (log_.stopped()) return false;
   AxisValues end = position_;
   const PlaneAxes axes = AxesOf(plane_);
   unsigned named = 0;
@@ -117,9 +123,7 @@ bool SinumerikInterpreter::NextPosition() {
     named |= 1U << axis;
   }
   holes_.pop_back();
-  UpdatePrototype();
-  BeforeLinearMotion();
-  if (log_.stopped()) return false;
+  command_.where = holes_where_;
   command_.kind = CommandKind::kRapid;
   command_.end = end;
   command_.named = static_cast<std::uint8_t>(named);

@@ -120,6 +120,17 @@ TEST(SinumerikCycles, HolesOnACircleAndInARow) {
   EXPECT_EQ(Ways(Simulate("CYCLE801(1,2,0,10,20,2,2)\n"), 3), "1,2,50 11,2,50 11,22,50 1,22,50");
 }
 
+TEST(SinumerikCycles, ASubprogramMayBeCalledAtEachHole) {
+  const TestRun run = Simulate(
+      "MCALL HOLE(3)\nHOLES1(0,0,0,10,20,2)\nMCALL\nX0\nM30\n%_N_HOLE_SPF\n"
+      "PROC HOLE(REAL DEPTH)\nG1 Z=-DEPTH\nG0 Z5\nM17\n");
+  EXPECT_EQ(Ways(run, 4), "10,0,50 30,0,5") << run.Text();
+  EXPECT_EQ(Ways(run, 10), "10,0,-3 30,0,-3");
+  EXPECT_EQ(Ways(run, 11), "10,0,5 30,0,5");
+  EXPECT_EQ(Ways(run, 6), "0,0,5");
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+}
+
 TEST(SinumerikCycles, AlarmsOfTheCycles) {
   const auto alarm = [](const std::string& call) {
     const std::string text = Message(Simulate(call + "\n"), Rule::kControlAlarm);

@@ -255,6 +255,7 @@ class SinumerikInterpreter {
   double contour_tolerance_ = 0.0, orientation_tolerance_ = 0.0;  ///< CYCLE832. mm, rad.
   std::optional<double> ctol_, otol_, adis_;
   std::vector<AxisValues> holes_;  ///< Of a pattern, still to be gone to; the next one last.
+  SourcePosition holes_where_;
   int cycle_count_ = 0;
   bool offset_checked_ = false, length_checked_ = false, no_tool_reported_ = false;
 };
