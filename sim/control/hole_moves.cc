@@ -24,7 +24,7 @@ HoleMoves::HoleMoves(const Command& prototype, const AxisValues& position, const
       feed_(prototype.feed),
       prototype_named_(prototype.named) {
   move_.end = position;
-  move_.corner_radius = move_.corner_chamfer = 0.0;
+  move_.corner_radius = move_.corner_chamfer = move_.corner_chamfer_length = 0.0;
   move_.exact_stop = true;  // Every feed of a cycle ends in a reversal or a stop.
 }
 

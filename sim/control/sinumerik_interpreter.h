@@ -168,7 +168,7 @@ class SinumerikInterpreter {
   // sinumerik_motion.cc
   void ExecuteAction(const SinumerikItem& item);
   void Dwell();
-  void ReferencePoint();
+  void MachinePoint(const SinumerikItem& item);
   void ExecuteMotion();
   bool TakeTargets(AxisValues* end, unsigned* named);
   bool LinearTarget(int axis, const SinumerikItem& item, double* value);
@@ -178,6 +178,7 @@ class SinumerikInterpreter {
   bool TakeArcWords(SinumerikArcWords* words);
   bool CheckFeed();
   void Move(const AxisValues& end, unsigned named);
+  bool TakeCorner();
   void MoveOnArc(const SinumerikArcWords& words);
   bool CheckArcFrame();
   void Push();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "sim/base/units.h"
+
 namespace ncsim::control {
 namespace {
 
@@ -45,6 +47,16 @@ void ReadRotary(const SettingSource& source, SinumerikSettings* settings) {
   }
 }
 
+void ReadFixedPoints(const SettingSource& source, SinumerikSettings* settings) {
+  for (std::size_t point = 0; point < kNumFixedPoints; ++point) {
+    for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
+      const std::string name = "MD30600[" + std::to_string(point) + "," + "XYZABC"[axis] + "]";
+      const auto value = source.Number(name);
+      if (value) settings->fixed_points[point][axis] = axis < kA ? *value : Radians(*value);
+    }
+  }
+}
+
 }  // namespace
 
 SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
@@ -61,6 +73,7 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
     if (code) settings.start_codes[group] = *code;
   }
   ReadRotary(source, &settings);
+  ReadFixedPoints(source, &settings);
   const int frame_mode = Whole(source, "MD10602", 0);
   settings.rpy = Whole(source, "MD10600", 1) == 1;
   settings.frame_keeps_translations = frame_mode == 1;

@@ -17,6 +17,8 @@
 
 namespace ncsim::control {
 
+inline constexpr int kNumFixedPoints = 4;
+
 struct SinumerikSettings {
   /// A, B, C.
   struct RotaryAxis {
@@ -42,7 +44,9 @@ struct SinumerikSettings {
   std::optional<unsigned> swivel_mask;     ///< SD55221.
   int swivel_reference = 0;  ///< Rotary axis that _DIR refers to, 1 or 2; 0: unstated.
   std::array<std::optional<double>, 3> swivel_retract;  ///< $TC_CARR38 to 40: X, Y, Z; mm.
-  unsigned skip_levels = 0;                             ///< Bit n: `/n` is left out.
+  /// MD30600: machine values of each axis; mm, rad.
+  std::array<std::array<std::optional<double>, kNumAxes>, kNumFixedPoints> fixed_points{};
+  unsigned skip_levels = 0;  ///< Bit n: `/n` is left out.
   bool optional_stop = false;
 };
 

@@ -65,6 +65,11 @@ std::vector<Setting> SinumerikSettings() {
     add("MD30330" + index, SettingKind::kAngle);  // MODULO_RANGE
     whole("MD30455" + index, 0, kMask);           // MISC_FUNCTION_MASK
   }
+  for (const char point : {'0', '1', '2', '3'}) {  // FIX_POINT_POS
+    const std::string name = std::string("MD30600[") + point + ",";
+    for (const char axis : {'X', 'Y', 'Z'}) add(name + axis + "]", SettingKind::kLength);
+    for (const char axis : {'A', 'B', 'C'}) add(name + axis + "]", SettingKind::kAngle);
+  }
   whole("SD42440", 0, 1);                                  // FRAME_OFFSET_INCR_PROG
   whole("SD42442", 0, 1);                                  // TOOL_OFFSET_INCR_PROG
   whole("SD55221", 0, kMask);                              // FUNCTION_MASK_SWIVEL_SET
