@@ -39,6 +39,13 @@ bool SameOutside(const AxisValues& a, const AxisValues& b, const PlaneAxes& axes
   return true;
 }
 
+/// Radius, or the way of the chamfer on each line.
+double SizeOf(const Command& command, double turn) {
+  if (command.corner_radius != 0.0) return command.corner_radius;
+  if (command.corner_chamfer != 0.0) return command.corner_chamfer;
+  return command.corner_chamfer_length / (2.0 * std::cos(0.5 * turn));
+}
+
 // In inverse time a piece of length `part` keeps the speed that the block of length `whole` has.
 void KeepSpeed(double whole, double part, Command* command) {
   if (command->feed_mode == Command::FeedMode::kInverseTime && part > kNoLength) {
@@ -141,10 +148,7 @@ bool CornerStage::Insert(Command* second) {
   const Eigen::Vector2d v = out / out_length;
   const double turn = std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));  // Left positive.
   const bool round = first.corner_radius != 0.0;
-  double size = round ? first.corner_radius : first.corner_chamfer;
-  if (first.corner_chamfer_length != 0.0) {
-    size = first.corner_chamfer_length / (2.0 * std::cos(0.5 * turn));
-  }
+  const double size = SizeOf(first, turn);
   if (!(size > 0.0)) return Alarm("is not greater than 0");
   if (kPi - std::abs(turn) < kNoTurn) return Alarm("stands at a reversal of direction");
   const double setback = round ? size * std::tan(0.5 * std::abs(turn)) : size;

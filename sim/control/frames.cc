@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/frames.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 
@@ -162,6 +163,13 @@ ProgramFrame Frames::OnTable(const AxisValues& offset, const AxisValues& machine
   frame.active = true;
   frame.to = origin - Linear(offset);
   for (int i = 0; i < 3; ++i) frame.linear.col(i) = turned(Eigen::Vector3d::Unit(i)) - origin;
+  // Differences of places far out: a rotation is made one to the last digit, so that arcs stay
+  // such.
+  constexpr double kRounding = 1e-10;
+  const Eigen::Matrix3d square = frame.linear.transpose() * frame.linear;
+  if ((square - Eigen::Matrix3d::Identity()).norm() <= kRounding) {
+    frame.linear = Eigen::Quaterniond(frame.linear).normalized().toRotationMatrix();
+  }
   return frame;
 }
 

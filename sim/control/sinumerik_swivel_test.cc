@@ -216,6 +216,20 @@ TEST(SinumerikSwivel, ACycleDrillsAlongThePlanesNormal) {
   EXPECT_NEAR(way.norm(), 7.0, 1e-9);
 }
 
+TEST(SinumerikSwivel, AnArcLiesInThePlane) {
+  const Matrix3d plane = Turn(0, 13.7) * Turn(1, 21.3) * Turn(2, 77.1);
+  const TestRun run = Simulate(
+      "CYCLE800(0,\"\",0,57,0,0,0,13.7,21.3,77.1,0,0,0,1)\nG0 X10 Y0 Z9\nG1 Z2\n"
+      "G3 X-10 Y0 I-10 J0\n");
+  ExpectInPlane(run, 6, {-10, 0, 2}, plane);
+  EXPECT_EQ(run.Last(6).kind, motion::MotionKind::kArc) << run.Text();
+  const Pose end = PoseOf(run, 6);
+  const motion::JointVector middle = run.Last(6).At(0.5);
+  const Vector3d half =
+      kCentre + Tables(end.b, end.c) * (kOffset + plane * Vector3d(0, 10, 2) - kCentre) + kTool;
+  EXPECT_LT((Vector3d(middle[kJointX], middle[kJointY], middle[kJointZ]) - half).norm(), 1e-9);
+}
+
 TEST(SinumerikSwivel, WhatIsNotSimulatedIsNamed) {
   const auto message = [](const std::string& text) {
     const TestRun run = Simulate(text + "\n");
