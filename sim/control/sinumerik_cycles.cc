@@ -74,6 +74,10 @@ void SinumerikInterpreter::Drill(const SinumerikCycleArguments& arguments,
     Alarm(where, alarm.number, name + ": " + alarm.text);
     return;
   }
+  if (call->reads_percent) {
+    log_.Assume("CYCLE83 _AMODE", "its digits make DAM and FRF percent: depths of single strokes",
+                false);
+  }
   if (call->spindle) spindle_ = *call->spindle;
   command_.spindle_on = spindle_ != 0 && rpm_ > 0.0;
   if (call->words.feed_in > 0.0) command_.feed = call->words.feed_in;

@@ -97,6 +97,22 @@ TEST(SinumerikCycles, Cycle83WithItsLongList) {
   EXPECT_TRUE(chips.findings.empty()) << chips.Text();
 }
 
+TEST(SinumerikCycles, Cycle83AsTheDialogWritesIt) {
+  // Strokes of 5, then nine tenths of the one before, down to 1.2; the first at nine tenths of F.
+  const TestRun run =
+      Simulate("CYCLE83(10,0,1,,20,,5,90,0.6,0.6,90,0,0,1.2,1.4,0.6,1.6,0,1,11211111)\n");
+  std::string depths;
+  double first = 0.0;
+  for (const motion::Motion& motion : run.motions) {
+    if (motion.where.line != 3 || motion.kind != motion::MotionKind::kFeed) continue;
+    if (depths.empty()) first = motion.duration;
+    depths += Short(motion.q1()[kJointZ] + 150.0) + " ";
+  }
+  EXPECT_EQ(depths, "-5 -9.5 -13.55 -17.195 -20 ") << run.Text();
+  EXPECT_NEAR(first, 6.0 / (0.9 * 5.0), 1e-9);
+  EXPECT_TRUE(run.Assumed("CYCLE83 _AMODE"));
+}
+
 TEST(SinumerikCycles, HolesOnACircleAndInARow) {
   // Closed form: centre + r (cos, sin).
   const TestRun run = Simulate("MCALL CYCLE81(5,0,1,-3)\nHOLES2(3,4,50,45,90,4)\nMCALL\nX0\n");
@@ -157,8 +173,10 @@ TEST(SinumerikCycles, WhatChangesTheGeometryAndIsNotSimulatedIsNamed) {
   const auto unsupported = [](const std::string& text) {
     return Message(Simulate(text + "\n"), Rule::kUnsupportedCode);
   };
-  EXPECT_EQ(unsupported("CYCLE83(10,0,2,,20,,5,90,0.6,0.6,90,0,0,1.2,1.4,0.6,1.6,0,1,11211111)"),
-            "CYCLE83 with _AMODE = 11211111 was not simulated");
+  EXPECT_EQ(unsupported("CYCLE83(10,0,2,,20,,5,90,0.6,0.6,90,0,0,1.2,1.4,0.6,1.6,0,1,31211111)"),
+            "CYCLE83 with _AMODE = 31211111 was not simulated");
+  EXPECT_EQ(unsupported("CYCLE82(10,0,2,-8,,0,0,1,11)"),
+            "CYCLE82 with _AMODE = 11 was not simulated");
   EXPECT_EQ(unsupported("CYCLE81(10,0,2,-8,,,1,1,0)"), "CYCLE81 with _GMODE = 1 was not simulated");
   EXPECT_EQ(unsupported("CYCLE82(10,0,2,-8,,0,0,2,12)"),
             "CYCLE82 with _DMODE = 2 was not simulated");

@@ -12,8 +12,9 @@ namespace {
 
 using Strokes = SinumerikDrilling::Strokes;
 
-/// Of _AMODE: which of a pair of parameters counts, or the unit of a time. 0: as without _AMODE.
-enum class Choice { kCompatible, kFirst, kSecond };
+/// Digits of CYCLE83's _AMODE beyond those of times: 0 as without it; of depths 1 incremental, 2
+/// absolute; of DAM 2 percent; of _DIS1 1 as given; of FRF 1 percent.
+constexpr int kFirstMode = 4, kDegressionMode = 5, kReapproachMode = 6, kFactorMode = 7;
 
 /// Reads one call. Each step returns false when it has filled in alarm or unsupported.
 class Reader {
@@ -96,14 +97,20 @@ bool Reader::ReadModes() {
   if (!CheckDisplayMode(a_, state_.plane, unsupported_)) return false;
   const long axis = a_.Whole("_AXN");
   if (axis != 0 && axis != 3) return Unsupported("_AXN");
+  // The depth that is asked for must be there.
   const long mode = a_.Whole("_AMODE");
   const bool deep = words().cycle == 83;
-  bool known = mode >= 0 && Mode(0) <= 2;
-  for (int place = 1; place <= (deep ? 4 : 1); ++place) known = known && Mode(place) <= 2;
-  long rest = mode / (deep ? 100'000 : 100);
-  // Millions: how _DIS1 is meant, which chip breaking does not use.
-  if (deep && a_.Whole("VARI") == 0 && rest == 10) rest = 0;
-  return known && rest == 0 ? true : Unsupported("_AMODE");
+  bool known = mode >= 0 && mode < (deep ? 100'000'000 : 100);
+  for (int place = 0; place <= kDegressionMode; ++place) known = known && Mode(place) <= 2;
+  known = known && (Mode(0) != 1 || a_.given("DPR")) && (Mode(0) != 2 || a_.given("DP"));
+  if (deep) {
+    const bool automatic = a_.Whole("VARI") == 1 && !(a_.Number("_DIS1") > 0.0);
+    known = known && (Mode(kFirstMode) != 1 || a_.given("FDPR"));
+    known = known && (Mode(kFirstMode) != 2 || a_.given("FDEP"));
+    known = known && Mode(kReapproachMode) <= (automatic ? 0 : 1) && Mode(kFactorMode) <= 1;
+    call_.reads_percent = Mode(kDegressionMode) == 2 || Mode(kFactorMode) == 1;
+  }
+  return known ? true : Unsupported("_AMODE");
 }
 
 bool Reader::ReadLevels() {
@@ -126,18 +133,20 @@ bool Reader::ReadDeepHole() {
   const long way = a_.Whole("VARI");
   if (way != 0 && way != 1) return Unsupported("VARI");
   w.strokes = way == 0 ? Strokes::kBreakChips : Strokes::kClearChips;
-  const int mode = Mode(4);
+  const int mode = Mode(kFirstMode);
   const double down = w.rfp > w.depth ? 1.0 : -1.0;
   const bool relative = mode == 1 || (mode == 0 && a_.Number("FDPR") != 0.0);
   w.first = relative ? std::abs(a_.Length("FDPR")) : down * (w.rfp - a_.Length("FDEP"));
   if (!(w.first > 0.0)) {
     return Alarm(61107, "the first drilling depth does not lie behind RFP" + Short(w.rfp));
   }
-  constexpr double kLeastFactor = 0.001;
-  w.first_factor = std::clamp(std::abs(a_.Number("FRF")), kLeastFactor, 1.0);
+  constexpr double kLeastFactor = 0.001, kPercent = 0.01;
+  const double factor = std::abs(a_.Number("FRF")) * (Mode(kFactorMode) == 1 ? kPercent : 1.0);
+  w.first_factor = std::clamp(factor, kLeastFactor, 1.0);
   // A negative DAM is a factor.
   const double degression = a_.Number("DAM");
   w.degression = degression > 0.0 ? degression * a_.mm() : degression;
+  if (Mode(kDegressionMode) == 2) w.degression = -kPercent * std::abs(degression);
   w.least = a_.Length("_MDEP");
   w.retract = a_.Length("_VRT") > 0.0 ? a_.Length("_VRT") : 1.0;
   w.reapproach = a_.Length("_DIS1");

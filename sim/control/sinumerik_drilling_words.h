@@ -24,6 +24,7 @@ struct SinumerikDrillCall {
   /// What the cycle makes of the spindle: its turning while the hole is made, and after; +1 M3, -1
   /// M4, 0 stopped; nullopt: it lets the spindle be.
   std::optional<int> spindle, spindle_after;
+  bool reads_percent = false;  ///< DAM or FRF of CYCLE83 are taken as percent.
 };
 
 /// nullopt: either `alarm` has a number, or `unsupported` says which parameter changes the geometry
