@@ -26,19 +26,6 @@ constexpr std::string_view kWrapNote =
     "MD21104 "
     "= 0 with ORIWKS interpolates the tool vector, and the axis goes on past 360 deg";
 
-kinematics::RotaryLimits LimitsOf(const machine::Machine& machine,
-                                  const kinematics::FiveAxis& five_axis) {
-  kinematics::RotaryLimits limits;
-  for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
-    for (const machine::Axis& axis : machine.axes) {
-      if (axis.joint != five_axis.rotary()[i]) continue;
-      limits.lower.at(i) = axis.lower;
-      limits.upper.at(i) = axis.upper;
-    }
-  }
-  return limits;
-}
-
 }  // namespace
 
 /// MD21104 = 1: group 51 decides; else ORIWKS goes along the vector, ORIMKS by the axes.
@@ -188,7 +175,7 @@ bool SinumerikInterpreter::WithinLimits(const Eigen::Vector3d& u_B,
                                         const std::array<double, 2>& from, bool led,
                                         std::array<double, 2>* reached) {
   const kinematics::FiveAxis& five_axis = parts_.frames->five_axis();
-  const kinematics::RotaryLimits limits = LimitsOf(*parts_.machine, five_axis);
+  const kinematics::RotaryLimits limits = RotaryLimitsOf(*parts_.machine, five_axis);
   const auto written = [&](const std::array<double, 2>& angles) {
     std::string text;
     for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
