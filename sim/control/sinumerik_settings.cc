@@ -66,6 +66,21 @@ void ReadFixedPoints(const SettingSource& source, SinumerikSettings* settings) {
   }
 }
 
+void ReadOrientation(const SettingSource& source, const machine::Machine& machine,
+                     const machine::Job& job, SinumerikSettings* settings) {
+  settings->orientation_euler = Whole(source, "MD21100", 1) == 1;
+  settings->orientation_by_g50 =
+      Whole(source, "MD21102", 0) == 1 || Whole(source, "MD21103", 0) == 1;
+  settings->orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
+  settings->pole_mode = Whole(source, "MD21108", 0);
+  settings->pole_stated = source.Text("MD21108").has_value();
+  if (const auto limit = source.Number("MD24540")) settings->pole_limit = Radians(*limit);
+  settings->limit_mode = Whole(source, "MD21180", 0);
+  settings->limit_mode_stated = IsStated("MD21180", source, machine, job);
+  settings->tolerance_factors = {std::nullopt, source.Number("SD55443"), source.Number("SD55442"),
+                                 source.Number("SD55441"), source.Number("SD55444")};
+}
+
 }  // namespace
 
 SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
@@ -101,17 +116,7 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.edge_after_change = Whole(source, "MD20270", 1);
   settings.circle_error = source.Number("MD21000").value_or(settings.circle_error);
   settings.circle_error_factor = source.Number("MD21010").value_or(settings.circle_error_factor);
-  settings.orientation_euler = Whole(source, "MD21100", 1) == 1;
-  settings.orientation_by_g50 =
-      Whole(source, "MD21102", 0) == 1 || Whole(source, "MD21103", 0) == 1;
-  settings.orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
-  settings.pole_mode = Whole(source, "MD21108", 0);
-  settings.pole_stated = source.Text("MD21108").has_value();
-  if (const auto limit = source.Number("MD24540")) settings.pole_limit = Radians(*limit);
-  settings.limit_mode = Whole(source, "MD21180", 0);
-  settings.limit_mode_stated = IsStated("MD21180", source, machine, job);
-  settings.tolerance_factors = {std::nullopt, source.Number("SD55443"), source.Number("SD55442"),
-                                source.Number("SD55441"), source.Number("SD55444")};
+  ReadOrientation(source, machine, job, &settings);
   settings.m6_changes = Whole(source, "MD22550", 1) == 1;
   settings.incremental_frame = Whole(source, "SD42440", 1) == 1;
   settings.incremental_tool = Whole(source, "SD42442", 1) == 1;
