@@ -95,7 +95,6 @@ struct ClHoleCycle {
   double dwell = 0.0;         ///< At the bottom: s, or revolutions.
   bool dwell_in_revolutions = false;
   std::optional<double> sink_diameter;  ///< mm
-  std::optional<double> pitch;          ///< mm: of a tap.
   SourcePosition where;                 ///< Of its CYCLE statement.
 };
 
@@ -119,8 +118,12 @@ struct ClCycleOff {};
 /// A new operation begins, or the one before ends: ClModal::operation.
 struct ClOperationBegin {};
 struct ClOperationEnd {};
-/// The tool of ClModal::tool is put into the spindle. Where the next motion starts is not known.
-struct ClToolLoad {};
+/// The tool of ClModal::tool is to be in the spindle. (Creo says its shape only afterwards: that of
+/// the first motion's ClModal is complete.)
+struct ClToolLoad {
+  bool change =
+      true;  ///< Another one was there, or none: where the next motion starts is not known.
+};
 /// FROM: the tool stands there.
 struct ClPosition {
   ClPose pose;

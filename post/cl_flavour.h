@@ -38,7 +38,8 @@ struct ClSurvey {
   std::string flavour_contradiction;  ///< Words of a second system; "" where there are none.
   std::optional<ClUnit> unit;         ///< UNITS; else of the feed rates where all agree.
   std::string unit_evidence;          ///< "UNITS at line 66", "MMPM at line 13"; "" without a unit.
-  std::string unit_contradiction;     ///< "IPM at line 87"; "" where all agree.
+  std::string other_feed_unit;     ///< "IPM at line 87" of a file that UNITS says is in mm; or "".
+  std::string unit_contradiction;  ///< "IPM at line 87"; "" where all agree.
 };
 /// Looks through the whole text.
 ClSurvey Survey(const nc::Program& program);

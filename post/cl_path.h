@@ -3,7 +3,6 @@
 // A stream: its memory does not grow with the file.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 
@@ -25,7 +24,7 @@ class ClPath {
  public:
   /// Errors and warnings go to `diagnostics`, which must outlive this. `file` is the index of the
   /// program's name for SourcePosition.
-  ClPath(std::shared_ptr<const nc::Program> program, int file, const ClOptions& options,
+  ClPath(const std::shared_ptr<const nc::Program>& program, int file, const ClOptions& options,
          Diagnostics* diagnostics);
   ~ClPath();
 
@@ -37,8 +36,8 @@ class ClPath {
   ClUnit unit() const;
 
  private:
-  class Machine;
-  std::unique_ptr<Machine> machine_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace ncsim::post

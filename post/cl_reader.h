@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "post/cl_record.h"
 #include "post/cl_text.h"
@@ -14,9 +15,10 @@ namespace ncsim::post {
 class ClReader {
  public:
   /// `file` is the index of the program's name for SourcePosition.
-  ClReader(std::shared_ptr<const nc::Program> program, int file, Diagnostics* diagnostics);
+  ClReader(const std::shared_ptr<const nc::Program>& program, int file, Diagnostics* diagnostics);
   /// The next record, comments and Unknown included; false at the end.
   bool Next(ClRecord* record);
+  int line() const { return text_.lines(); }  ///< The last one read.
 
  private:
   std::string name_;

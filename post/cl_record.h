@@ -26,6 +26,8 @@ enum class ClFeedUnit : std::uint8_t {
   kInchPerMinute,  ///< IPM
   kMmPerRev,       ///< MMPR
   kInchPerRev,     ///< IPR
+  kPerMinute,      ///< PERMIN: in the unit of the file.
+  kPerRev,         ///< PERREV
 };
 
 /// What a hole cycle does below the clearance plane.
@@ -145,7 +147,7 @@ struct Coolant {
 struct CutterComp {
   enum class Side : std::uint8_t { kOff, kLeft, kRight, kOn } side = Side::kOff;
   enum class Plane : std::uint8_t { kUnstated, kXY, kYZ, kZX } plane = Plane::kUnstated;
-  std::optional<int> length_register;  ///< The D number.
+  std::optional<int> diameter_register;  ///< The D number.
 };
 /// CYCLE/..., distances as written: whether a depth has a sign is the flavour's matter.
 struct Cycle {
@@ -163,7 +165,6 @@ struct Cycle {
   std::optional<double> dwell;  ///< DWELL: s, or revolutions.
   bool dwell_in_revolutions = false;
   std::optional<double> sink_diameter;  ///< CSINK,d
-  std::optional<double> pitch;          ///< of a tap: MMPR, IPR, TPI.
 };
 /// CYCLE/OFF, CYCLE/ON (the last one again), and SolidWorks CAM's CYCLE/INIT and CYCLE/CLEAR.
 struct CycleSwitch {

@@ -31,6 +31,7 @@ struct ClLine {
     kNumbers,  ///< No major word: one more point.
     kComment,  ///< $$
     kData,     ///< $$-> and REMARK ->
+    kBroken,   ///< Reported already.
   } kind = Kind::kStatement;
   int line = 0, column = 0;     ///< Of its first character.
   std::string major;            ///< Upper case, blanks inside folded to one: "TOOL PATH".
@@ -48,7 +49,9 @@ class ClText {
 
  private:
   std::string_view NextRaw();
-  bool Tokenize(std::string_view text, std::string_view raw, ClLine* line, bool* goes_on);
+  void ReadStatement(std::string_view raw, std::string_view rest, ClLine* line);
+  bool ReadTokens(std::string_view raw, std::string_view rest, bool goes_on, ClLine* line);
+  void Error(std::string_view raw, std::string_view at, const std::string& message, ClLine* line);
 
   std::shared_ptr<const nc::Program> program_;
   Diagnostics* diagnostics_;
@@ -56,5 +59,9 @@ class ClText {
   std::size_t released_ = 0;
   int line_ = 0;
 };
+
+/// `text` in quotes for a message: what is not printable ASCII as '?', no longer than 40
+/// characters.
+std::string Quoted(std::string_view text);
 
 }  // namespace ncsim::post
