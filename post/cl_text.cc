@@ -10,7 +10,6 @@
 namespace ncsim::post {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\v\f";
 /// Of one statement; the longest of any manual has some forty.
 constexpr std::size_t kMaxTokens = 1000;
 /// Beyond it no number of a part or a machine lies, and products of some stay finite.
@@ -21,10 +20,13 @@ constexpr std::size_t kReleaseBytes = std::size_t{4} << 20;
 constexpr std::array<std::string_view, 6> kTextWords = {"INSERT", "LETTER", "PARTNO",
                                                         "PPRINT", "REMARK", "TITLES"};
 
+bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+/// Of blanks alone what is left is empty, and stands at their end.
 std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  while (!text.empty() && IsBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && IsBlank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
@@ -39,7 +41,7 @@ bool IsWordCharacter(char c) {
 void SetMajor(std::string_view text, std::string* major) {
   major->clear();
   for (const char c : Trim(text)) {
-    const bool blank = kBlanks.find(c) != std::string_view::npos;
+    const bool blank = IsBlank(c);
     if (blank && major->back() == ' ') continue;
     *major += blank ? ' ' : Upper(c);
   }
@@ -100,52 +102,53 @@ void ClText::Error(std::string_view raw, std::string_view at, const std::string&
   line->kind = ClLine::Kind::kBroken;
 }
 
-/// The tokens of one line; false at the first thing that is wrong. `goes_on`: a comma at the end
+/// The tokens of one line, to the first thing that is wrong. `goes_on`: a comma at the end
 /// separates what the next line begins with.
-bool ClText::ReadTokens(std::string_view raw, std::string_view rest, bool goes_on, ClLine* line) {
+void ClText::ReadTokens(std::string_view raw, std::string_view rest, bool goes_on, ClLine* line) {
   while (true) {
     const std::size_t comma = rest.find(',');
     ClToken token;
     token.text = Trim(rest.substr(0, comma));
-    const char* at = token.text.empty() ? rest.data() : token.text.data();
     token.line = line_;
-    token.column = static_cast<int>(at - raw.data()) + 1;
+    token.column = static_cast<int>(token.text.data() - raw.data()) + 1;
     token.is_number = ReadNumber(token.text, &token.number);
     if (line->kind != ClLine::Kind::kData &&
-        token.text.find_first_of(kBlanks) != std::string_view::npos) {
-      Error(raw, token.text, Quoted(token.text) + " has a blank inside: a comma is missing", line);
-      return false;
+        std::any_of(token.text.begin(), token.text.end(), IsBlank)) {
+      return Error(raw, token.text, Quoted(token.text) + " has a blank inside: a comma is missing",
+                   line);
     }
     if (line->tokens.size() == kMaxTokens) {
-      Error(raw, rest,
-            "a statement of more than " + std::to_string(kMaxTokens) + " values is not read", line);
-      return false;
+      return Error(raw, rest,
+                   "a statement of more than " + std::to_string(kMaxTokens) + " values is not read",
+                   line);
     }
     line->tokens.push_back(token);
-    if (comma == std::string_view::npos) return true;
+    if (comma == std::string_view::npos) return;
     rest.remove_prefix(comma + 1);
-    if (goes_on && Trim(rest).empty()) return true;
+    if (goes_on && Trim(rest).empty()) return;
   }
 }
 
-/// `rest`: what follows the major word on the first line, `raw`.
+/// The lines of a statement. `rest`: what follows the major word on the first one, `raw`.
 void ClText::ReadStatement(std::string_view raw, std::string_view rest, ClLine* line) {
-  bool separated = true;  // from the token before, by a comma
+  bool separated = true;  // from the value before, by a comma
+  bool goes_on = true;
   while (true) {
     std::string_view after;
-    bool goes_on = false;
     rest = CutEnd(rest, &goes_on, &after);
-    if (!after.empty()) {
-      return Error(raw, after, Quoted(after) + " after the '$' that continues the statement", line);
-    }
-    const std::string_view values = Trim(rest);
-    if (!values.empty()) {
-      if (!separated && values[0] != ',') {
-        return Error(raw, values, "a comma is missing between the lines", line);
+    // The lines of a broken statement are passed over.
+    if (line->kind != ClLine::Kind::kBroken) {
+      const std::string_view values = Trim(rest);
+      if (!after.empty()) {
+        Error(raw, after, Quoted(after) + " after the '$' that continues the statement", line);
+      } else if (!separated && !values.empty() && values[0] != ',') {
+        Error(raw, values, "a comma is missing between the lines", line);
+      } else if (!values.empty()) {
+        ReadTokens(raw, separated ? rest : values.substr(1), goes_on, line);
+        separated = values.back() == ',';
+      } else if (!goes_on && separated && !line->tokens.empty()) {
+        Error(raw, values, "nothing follows the comma of the line before", line);
       }
-      if (!separated) rest.remove_prefix(static_cast<std::size_t>(values.data() - rest.data()) + 1);
-      if (!ReadTokens(raw, rest, goes_on, line)) return;
-      separated = values.back() == ',';
     }
     if (!goes_on) return;
     if (offset_ >= program_->text().size()) {

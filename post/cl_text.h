@@ -50,7 +50,7 @@ class ClText {
  private:
   std::string_view NextRaw();
   void ReadStatement(std::string_view raw, std::string_view rest, ClLine* line);
-  bool ReadTokens(std::string_view raw, std::string_view rest, bool goes_on, ClLine* line);
+  void ReadTokens(std::string_view raw, std::string_view rest, bool goes_on, ClLine* line);
   void Error(std::string_view raw, std::string_view at, const std::string& message, ClLine* line);
 
   std::shared_ptr<const nc::Program> program_;

@@ -100,7 +100,10 @@ ClStatement ParseSpindle(ClArguments& arguments) {
       spindle.mode = Mode::kOff;
     } else if (arguments.Take("RPM")) {
       spindle.mode = Mode::kRpm;
-    } else if (arguments.Take("SMM") || (feet = arguments.Take("SFM"))) {
+    } else if (arguments.Take("SMM")) {
+      spindle.mode = Mode::kSurface;
+    } else if (arguments.Take("SFM")) {
+      feet = true;
       spindle.mode = Mode::kSurface;
     } else if (arguments.Take("LOCK")) {
       spindle.mode = Mode::kLocked;
