@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -60,7 +61,7 @@ ClMachine::ClMachine(std::string name, int file, const ClOptions& options, Diagn
       modal_(StartModal()) {}
 
 void ClMachine::End(int line) {
-  where_ = {file_, line, 1};
+  where_ = {file_, std::max(line, 1), 1};
   if (circle_ && circle_->end) CloseArc();
   DropCircle();
   if (in_operation_) {
@@ -119,6 +120,7 @@ void ClMachine::On(cl::End&&) {
 }
 
 void ClMachine::On(cl::Msys&& msys) {
+  DropCircle();
   const auto rotation = RotationOf(msys.x, msys.y);
   if (!rotation) return Error("the axes of MSYS are not of length 1 and square to each other");
   const Eigen::Isometry3d X_AM = Pose(*rotation, msys.origin * scale_);
@@ -132,6 +134,7 @@ void ClMachine::On(cl::Msys&& msys) {
 }
 
 void ClMachine::On(cl::Csys&& csys) {
+  DropCircle();
   const std::array<double, 12>& row = csys.rows;
   const auto rotation = RotationOf({row[0], row[4], row[8]}, {row[1], row[5], row[9]});
   const Eigen::Vector3d z(row[2], row[6], row[10]);
