@@ -23,6 +23,20 @@ constexpr std::string_view kProgram = "calls or defines a program";
 
 }  // namespace
 
+std::string_view ToString(ClWord::Use use) {
+  switch (use) {
+    case Use::kRead:
+      return "read";
+    case Use::kPassed:
+      return "passed on";
+    case Use::kIgnored:
+      return "no effect";
+    case Use::kRefused:
+      break;
+  }
+  return "refused";
+}
+
 const std::vector<ClWord>& ClWords() {
   static const std::vector<ClWord> kWords = {
       {"AUXFUN", Use::kRead, "M code", ParseAuxiliary},

@@ -24,6 +24,9 @@ struct ClWord {
   ClStatement (*parse)(ClArguments&) = nullptr;
 };
 
+/// "read", "passed on", "no effect", "refused"
+std::string_view ToString(ClWord::Use use);
+
 /// In alphabetic order.
 const std::vector<ClWord>& ClWords();
 /// Null for a word that is not in the table.
