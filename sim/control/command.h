@@ -101,6 +101,7 @@ struct Command {
   int tool = 0;                        ///< T number in the spindle while this command runs.
   int cycle = 0;                       ///< motion::Facts::cycle.
   double corner_rounding = 0.0;        ///< mm.
+  bool smooths_rapids = false;         ///< The two tolerances hold for rapids too.
   double orientation_tolerance = 0.0;  ///< rad: motion::Facts::orientation_tolerance.
   std::string_view wrap_note;          ///< motion::Facts::wrap_note.
   // What the contour stage acts on.

@@ -265,13 +265,10 @@ void SinumerikInterpreter::UpdateTolerance() {
   const bool compresses = !Is(kSinCompressor, "COMPOF");
   command_.exact_stop = stops && !smooths && !compresses;
   command_.corner_rounding = contour_tolerance_;
-  command_.orientation_tolerance = smooths ? orientation_tolerance_ : otol_.value_or(0.0);
-  if (traori_ && command_.orientation_tolerance > 0.0) {
-    // Bodies are not widened by what the tool may lean.
-    log_.Assume("orientation tolerance",
-                "the tool axis is taken as programmed; smoothing may turn it by up to " +
-                    Short(Degrees(command_.orientation_tolerance), 3) + " deg",
-                true);
+  command_.smooths_rapids = true;        // STOLF, MD20560: the standard factor of G0 is 1
+  command_.orientation_tolerance = 0.0;  // SD42466: only with an orientation transformation
+  if (traori_) {
+    command_.orientation_tolerance = smooths ? orientation_tolerance_ : otol_.value_or(0.0);
   }
   if (smooths || command_.exact_stop) return;
   if (Is(kSinExactStop, "G641") && !compresses) {

@@ -120,11 +120,21 @@ TEST(SinumerikTraori, Cycle832SetsTolerancesUntilItIsSwitchedOff) {
       std::string(kStart) + "CYCLE832(0.01,_ORI_ROUGH,1)\nG1 F500 X1\nCYCLE832()\nX2\n");
   EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.01, 1e-12) << run.Text();
   EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(1.0), 1e-12);
-  // What may lean and is not widened by it is doubt.
-  EXPECT_TRUE(std::any_of(
-      run.summary.assumptions.begin(), run.summary.assumptions.end(),
-      [](const Assumption& a) { return a.name == "orientation tolerance" && a.places_metal; }));
   EXPECT_EQ(run.Last(7).facts.corner_rounding, 0.0);
+}
+
+// Programming manual 07/2010 of the 828D, p. 494: G0 has the same tolerances, times a factor that
+// is 1 as delivered. SD42466: without TRAORI nothing of the orientation is smoothed.
+TEST(SinumerikTraori, RapidsAreSmoothedToo) {
+  const std::string smooth =
+      "CYCLE832(0.01,_ORI_ROUGH,1)\nG0 X1\nTRAFOOF\nG54\nG0 X2\nG1 F500 X3\n";
+  const TestRun run = SinumerikTest().Run(std::string(kStart) + smooth);
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.01, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(1.0), 1e-12);
+  for (const int line : {8, 9}) {
+    EXPECT_NEAR(run.Last(line).facts.corner_rounding, 0.01, 1e-12) << line;
+    EXPECT_EQ(run.Last(line).facts.orientation_tolerance, 0.0) << line;
+  }
 }
 
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
