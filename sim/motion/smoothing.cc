@@ -5,6 +5,7 @@
 #include <cmath>
 #include <variant>
 
+#include "sim/base/units.h"
 #include "sim/motion/path.h"
 
 namespace ncsim::motion {
@@ -15,6 +16,16 @@ namespace {
 double Turned(double angle) {
   constexpr double kMost = 1.1;  // rad, of which the tangent is just below 2
   return angle < kMost ? std::tan(angle) : 2.0;
+}
+
+/// How far the second rotary joint may be off, rad, while the tool axis is off by `tolerance`.
+double SecondJoint(const TcpCurve& curve, double tolerance) {
+  if (curve.great_circle == nullptr) return tolerance;
+  const kinematics::FiveAxis& control = curve.frame->control;
+  const double sine = control.RadiiAboutTip(Eigen::Vector3d::UnitZ(), RotaryAt(curve, 0.5))[1];
+  const double tilt = std::asin(std::min(1.0, sine)) - 0.5 * curve.great_circle->angle();
+  if (tilt <= tolerance) return kPi;
+  return std::max(tolerance, std::asin(std::sin(tolerance) / std::sin(tilt)));
 }
 
 constexpr double kLoose = 1.1;            // a bound that is no further above the truth is good
@@ -34,8 +45,11 @@ Smoothing::Smoothing(const kinematics::KinematicTree& tree, const kinematics::Fi
 void Smoothing::Add(const Motion& motion, double tool_length, Slack* slack) {
   slack->rounding = std::max(slack->rounding, motion.facts.corner_rounding);
   if (motion.facts.orientation_tolerance <= 0.0) return;
-  slack->turn = std::max(slack->turn, Turned(motion.facts.orientation_tolerance));
+  const double tolerance = motion.facts.orientation_tolerance;
   const auto* curve = std::get_if<TcpCurve>(&motion.path);
+  const double second = curve != nullptr ? SecondJoint(*curve, tolerance) : tolerance;
+  slack->turn = std::max(slack->turn, Turned(tolerance));
+  slack->second = std::max(slack->second, Turned(second));
   slack->free = slack->free || curve == nullptr;
   if (curve == nullptr) return;
   slack->length = std::max(slack->length, std::abs(curve->frame->length - tool_length));
@@ -108,12 +122,12 @@ Smoothing::Bounds Smoothing::OfStretch(const Travel& run, std::size_t leaf,
 // own, and may have put that off by what it rounds.
 double Smoothing::AboutTip(const Eigen::Vector3d& tip, double astray, double tool_length,
                            const Slack& slack) const {
-  const auto rotary = static_cast<double>(five_axis_->rotary().size());
   double reach = reach_.value_or((pair_->p_SC - Eigen::Vector3d(0.0, 0.0, tool_length)).norm() +
                                  pair_->a.radius);
   if (b_) reach = std::min(reach, (b_->p_LC - tip).norm() + b_->radius + astray + slack.rounding);
-  const double turns = pair_->revolved ? 1.0 : rotary;
-  return slack.rounding + slack.turn * (turns * (reach + slack.length) + rotary * slack.centre);
+  const double joints = slack.both(five_axis_->rotary().size());
+  const double turn = pair_->revolved ? slack.turn : joints;
+  return slack.rounding + turn * (reach + slack.length) + joints * slack.centre;
 }
 
 double Smoothing::AboutTip(const Motion& motion, double tool_length, const Slack& slack) const {
@@ -135,9 +149,11 @@ double Smoothing::About(const JointVector& middle, const JointVector& half, doub
   const kinematics::TravelWeights weights = pair_->path.Weights(middle, half, pair_->a);
   double sum = 0.0;
   double taken_back = slack.rounding;
+  double turn = slack.turn;
   for (const int joint : five_axis_->rotary()) {
-    sum += slack.turn * weights.joints[joint];
-    taken_back += slack.turn * radii[joint];
+    sum += turn * weights.joints[joint];
+    taken_back += turn * radii[joint];
+    turn = slack.second;
   }
   const Eigen::Vector3d shares = taken_back * five_axis_->linear_gain();
   const std::vector<int>& linear = five_axis_->linear();

@@ -22,6 +22,10 @@ namespace ncsim::motion {
 /// between spindle and table, each rotary axis moves the point by tan(tolerance) times its distance
 /// from that axis, and the linear axes by what they must, to take back what the rotary axes do to
 /// the tip: tan(tolerance) times the sum of its distances from them.
+///
+/// Where the tool axis is led along a great circle, the second rotary joint may be off by more than
+/// the tolerance: by asin(sin(tolerance) / sin(tilt)), and anywhere within a tolerance of the pole.
+/// (A nutating machine's joints are taken as an orthogonal one's.)
 class Smoothing {
  public:
   /// `five_axis` may be null (then no orientation is smoothed); it and `pair` outlive this. `reach`
@@ -42,11 +46,13 @@ class Smoothing {
   /// What a stretch of motions may be off by, at most.
   struct Slack {
     double rounding = 0.0;  // mm
-    double turn = 0.0;      // mm a mm from the axis
+    double turn = 0.0;      // mm a mm from the axis: of the tool axis and the first rotary joint
+    double second = 0.0;    // of the second rotary joint
     double length = 0.0;    // mm: the control's tool against the metal's
     double centre = 0.0;    // mm: TcpFrame::centre_error
     bool free = false;      // a motion that does not keep the tip
     bool empty() const { return turn <= 0.0; }
+    double both(std::size_t joints) const { return joints > 1 ? turn + second : turn; }
     /// Bodies turn about the tip, wherever that is.
     bool about_tip(const PairPath& pair) const { return pair.tool_to_table && !free; }
   };

@@ -27,8 +27,9 @@ struct Case {
   Motion motion;
 };
 
-Case RandomCase(Random* random) {
-  const TestMachine machine = RandomMachine(random, {random->Chance(0.4), random->Chance(0.3)});
+Case RandomCase(Random* random, bool oblique = true) {
+  const TestMachine machine =
+      RandomMachine(random, {oblique && random->Chance(0.4), random->Chance(0.3)});
   const auto metal = FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
   const double length = random->Uniform(50.0, 250.0);
   const auto frame = std::make_shared<TcpFrame>(
@@ -89,6 +90,54 @@ TEST(SmoothingTest, IsNeverLessThanWhatIsSampled) {
     }
   }
   EXPECT_GT(tool_to_table, 150);
+}
+
+// Led along a great circle the tool axis keeps its tolerance, and the second joint goes where that
+// takes it: far, beside the pole.
+TEST(SmoothingTest, BesideThePoleTheSecondJointGoesFurther) {
+  Random random(64);
+  double most = 0.0;  // turn of the second joint, in tolerances
+  for (int i = 0; i < 2000; ++i) {
+    Case c = RandomCase(&random, false);
+    const auto& curve = std::get<TcpCurve>(c.motion.path);
+    if (curve.great_circle == nullptr) continue;
+    const int count = static_cast<int>(c.machine.tree.links().size());
+    const PairPath pair(c.machine.tree,
+                        {random.Below(count), random.InBox(150.0), random.Uniform(0.0, 100.0)},
+                        random.Below(count), &c.metal);
+    const Smoothing smoothing(c.machine.tree, &c.metal, pair, std::nullopt);
+    const Travel run(c.machine.tree, &c.metal, c.length, {&c.motion});
+    const double bound = std::min(smoothing.Of(c.motion, c.length), smoothing.Greatest(run));
+    const double tolerance = c.motion.facts.orientation_tolerance;
+    for (int k = 0; k < 20; ++k) {
+      const double s = random.Uniform(0.0, 1.0);
+      const JointVector q = c.motion.At(s);
+      Eigen::Vector3d tip, u;
+      c.metal.TipInTable(q, c.frame->length, &tip, &u);
+      const Eigen::Vector3d about = u.cross(random.Direction()).normalized();
+      const std::vector<kinematics::RotarySolution> solutions =
+          c.metal.SolveRotary(Eigen::AngleAxisd(tolerance * random.Uniform(0.5, 1.0), about) * u);
+      // Of the two ways to get there, the one on this side of the pole.
+      const std::vector<int>& rotary = c.metal.rotary();
+      JointVector off = q;
+      double nearest = kPi;
+      for (const kinematics::RotarySolution& solution : solutions) {
+        const double turn = std::remainder(solution.angles[0] - q[rotary[0]], 2.0 * kPi);
+        if (solution.at_pole || std::abs(turn) >= nearest) continue;
+        nearest = std::abs(turn);
+        off[rotary[0]] = q[rotary[0]] + turn;
+        off[rotary[1]] = solution.angles[1];
+      }
+      if (nearest > tolerance + kRounding) continue;
+      most = std::max(
+          most, std::abs(std::remainder(off[rotary[1]] - q[rotary[1]], 2.0 * kPi)) / tolerance);
+      c.metal.SolveLinear(TipPoint(curve, s), c.frame->length, &off);
+      const Eigen::Vector3d p = pair.a.p_LC + pair.a.radius * random.Direction();
+      ASSERT_LE((pair.path.Pose(off) * p - pair.path.Pose(q) * p).norm(), bound + kRounding)
+          << "case " << i;
+    }
+  }
+  EXPECT_GT(most, 20.0);
 }
 
 // The same from the other body: a small one on the table does not get further, as seen from the
