@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "sim/base/units.h"
@@ -36,7 +37,7 @@ constexpr double kShortest = 1.0 / 16.0;  // piece of a motion that is halved
 Smoothing::Smoothing(const kinematics::KinematicTree& tree, const kinematics::FiveAxis* five_axis,
                      const PairPath& pair, std::optional<double> reach,
                      std::optional<kinematics::Extent> b)
-    : five_axis_(five_axis), pair_(&pair), reach_(reach), b_(b) {
+    : five_axis_(five_axis), pair_(&pair), reach_(reach), b_(std::move(b)) {
   if (five_axis == nullptr) return;
   if (b_) b_->p_LC = pair.X_BTable.inverse() * b_->p_LC;
   tool_path_.emplace(tree, five_axis->table_link(), five_axis->spindle_link());
