@@ -17,6 +17,7 @@ using nc::Support;
 // mm: what G642 to G645 and the compressors may leave the path by where nobody states it
 // (MD33100, standard value).
 constexpr double kStandardTolerance = 0.05;
+constexpr double kStandardOrientation = Radians(0.05);
 
 ContourOptions CompensationOptions() {
   ContourOptions options;
@@ -265,11 +266,9 @@ void SinumerikInterpreter::UpdateTolerance() {
   const bool compresses = !Is(kSinCompressor, "COMPOF");
   command_.exact_stop = stops && !smooths && !compresses;
   command_.corner_rounding = contour_tolerance_;
-  command_.smooths_rapids = true;        // STOLF, MD20560: the standard factor of G0 is 1
-  command_.orientation_tolerance = 0.0;  // SD42466: only with an orientation transformation
-  if (traori_) {
-    command_.orientation_tolerance = smooths ? orientation_tolerance_ : otol_.value_or(0.0);
-  }
+  command_.smooths_rapids = true;  // STOLF, MD20560: the standard factor of G0 is 1
+  // SD42466: only with an orientation transformation.
+  command_.orientation_tolerance = traori_ && smooths ? orientation_tolerance_ : 0.0;
   if (smooths || command_.exact_stop) return;
   if (Is(kSinExactStop, "G641") && !compresses) {
     command_.corner_rounding = adis_.value_or(0.0);
@@ -282,6 +281,15 @@ void SinumerikInterpreter::UpdateTolerance() {
                 Fixed(kStandardTolerance, 2) +
                     " mm: G642 to G645 and compressors leave the path by no more (MD33100)",
                 false);
+  }
+  if (!traori_) return;
+  command_.orientation_tolerance = otol_.value_or(kStandardOrientation);
+  if (!otol_) {
+    log_.Assume(
+        "orientation tolerance",
+        Short(Degrees(kStandardOrientation), 3) +
+            " deg: G642 to G645 and compressors turn the tool by no more (SD42466, SD42476)",
+        false);
   }
 }
 

@@ -123,6 +123,21 @@ TEST(SinumerikTraori, Cycle832SetsTolerancesUntilItIsSwitchedOff) {
   EXPECT_EQ(run.Last(7).facts.corner_rounding, 0.0);
 }
 
+// OTOL holds for compressors and G642 to G645, not for G641 (programming manual 06/2009, p. 566).
+TEST(SinumerikTraori, OtolOrWhatIsAssumedOfIt) {
+  const std::string feeds =
+      "G642 CTOL=0.02 OTOL=0.5\nG1 F500 X1\nG641 ADIS=0.3\nX2\nG645 OTOL=-1\nX3\nG60\nX4\n";
+  const TestRun run = SinumerikTest().Run(std::string(kStart) + feeds);
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.02, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(0.5), 1e-12);
+  EXPECT_EQ(run.Last(7).facts.orientation_tolerance, 0.0);
+  EXPECT_NEAR(run.Last(9).facts.orientation_tolerance, Radians(0.05), 1e-12);
+  EXPECT_EQ(run.Last(11).facts.orientation_tolerance, 0.0);
+  EXPECT_EQ(std::count_if(run.summary.assumptions.begin(), run.summary.assumptions.end(),
+                          [](const Assumption& a) { return a.name == "orientation tolerance"; }),
+            1);
+}
+
 // Programming manual 07/2010 of the 828D, p. 494: G0 has the same tolerances, times a factor that
 // is 1 as delivered. SD42466: without TRAORI nothing of the orientation is smoothed.
 TEST(SinumerikTraori, RapidsAreSmoothedToo) {
