@@ -26,7 +26,7 @@ MotionOptions ToMotionOptions() {
   options.track_tcp_rapids = true;
   options.rotary_follows = true;
   options.slows_down = true;
-  options.rounds_rapids = true;
+  options.rounds_rapids = true;  // STOLF, MD20560: the standard factor of G0 is 1
   return options;
 }
 

@@ -141,7 +141,6 @@ class SinumerikInterpreter {
   void UpdateModes();
   void UpdatePrototype();
   void UpdateTolerance();
-  double OrientationTolerance();
   void ApplyTechnology();
   void ApplyM(bool at_end);
   void ExecuteM(int code, const SinumerikItem& item);

@@ -133,10 +133,6 @@ TEST(SinumerikTraori, Cycle832SetsTolerancesUntilItIsSwitchedOff) {
       std::string(kStart) + "CYCLE832(0.01,_ORI_ROUGH,1)\nG1 F500 X1\nCYCLE832()\nX2\n");
   EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.01, 1e-12) << run.Text();
   EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(1.0), 1e-12);
-  // What may lean and is not widened by it is doubt.
-  EXPECT_TRUE(std::any_of(
-      run.summary.assumptions.begin(), run.summary.assumptions.end(),
-      [](const Assumption& a) { return a.name == "orientation tolerance" && a.places_metal; }));
   EXPECT_EQ(run.Last(7).facts.corner_rounding, 0.0);
 }
 
@@ -308,6 +304,35 @@ TEST(SinumerikTraori, VectorsTurnWithTheFrameUnderOriwksOnly) {
   EXPECT_NEAR(Degrees(run.Last(5).q1()[kJointB]), 30.0, 1e-9);
   run = control.Run(text + "ORIMKS\n");
   EXPECT_NEAR(Degrees(run.Last(5).q1()[kJointB]), 0.0, 1e-9);
+}
+
+// OTOL holds for compressors and G642 to G645, not for G641 (programming manual 06/2009, p. 566).
+TEST(SinumerikTraori, OtolOrWhatIsAssumedOfIt) {
+  const std::string feeds =
+      "G642 CTOL=0.02 OTOL=0.5\nG1 F500 X1\nG641 ADIS=0.3\nX2\nG645 OTOL=-1\nX3\nG60\nX4\n";
+  const TestRun run = SinumerikTest().Run(std::string(kStart) + feeds);
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.02, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(0.5), 1e-12);
+  EXPECT_EQ(run.Last(7).facts.orientation_tolerance, 0.0);
+  EXPECT_NEAR(run.Last(9).facts.orientation_tolerance, Radians(0.05), 1e-12);
+  EXPECT_EQ(run.Last(11).facts.orientation_tolerance, 0.0);
+  EXPECT_EQ(std::count_if(run.summary.assumptions.begin(), run.summary.assumptions.end(),
+                          [](const Assumption& a) { return a.name == "orientation tolerance"; }),
+            1);
+}
+
+// Programming manual 07/2010 of the 828D, p. 494: G0 has the same tolerances, times a factor that
+// is 1 as delivered. SD42466: without TRAORI nothing of the orientation is smoothed.
+TEST(SinumerikTraori, RapidsAreSmoothedToo) {
+  const std::string smooth =
+      "CYCLE832(0.01,_ORI_ROUGH,1)\nG0 X1\nTRAFOOF\nG54\nG0 X2\nG1 F500 X3\n";
+  const TestRun run = SinumerikTest().Run(std::string(kStart) + smooth);
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.01, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(1.0), 1e-12);
+  for (const int line : {8, 9}) {
+    EXPECT_NEAR(run.Last(line).facts.corner_rounding, 0.01, 1e-12) << line;
+    EXPECT_EQ(run.Last(line).facts.orientation_tolerance, 0.0) << line;
+  }
 }
 
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
