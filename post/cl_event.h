@@ -115,8 +115,10 @@ struct ClHole {
 /// The cycle ends.
 struct ClCycleOff {};
 
-/// A new operation begins, or the one before ends: ClModal::operation.
+/// A new operation begins, and with it the one before ends: ClModal::operation. (SolidWorks CAM and
+/// Creo load its tool before it.)
 struct ClOperationBegin {};
+/// NX says so.
 struct ClOperationEnd {};
 /// The tool of ClModal::tool is to be in the spindle. (Creo says its shape only afterwards: that of
 /// the first motion's ClModal is complete.)

@@ -28,8 +28,8 @@ class ClPath {
          Diagnostics* diagnostics);
   ~ClPath();
 
-  /// The next event; false after ClEnd. Once `diagnostics` has errors the events that follow are
-  /// good for finding more errors, and for nothing else.
+  /// The next event; false after ClEnd, and after a hundred errors. Once `diagnostics` has errors
+  /// the events that follow are good for finding more errors, and for nothing else.
   bool Next(ClEvent* event);
 
   ClFlavour flavour() const;

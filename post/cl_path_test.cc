@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "post/test_cl.h"
 #include "sim/base/units.h"
 
@@ -15,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// The excerpt of an impeller's blade in docs/cl-files.md: i, j, k stay until they are named again.
+// As NX writes a blade of an impeller: i, j, k stay until they are named again.
 constexpr const char* kBlade =
     "TOOL PATH/BLADE,TOOL,BALL10\nTLDATA/MILL,10.0,5.0,35.0,0.0,0.0\n"
     "MSYS/0.0,0.0,15.1884,1.0,0.0,0.0,0.0,1.0,0.0\n$$ centerline data\nPAINT/PATH\n"
@@ -299,6 +302,21 @@ TEST(ClPathBadInputTest, CutFiles) {
   EXPECT_THAT(RunCreo("").messages(), ElementsAre(HasSubstr("a file without a motion")));
   EXPECT_THAT(RunCreo("RAPID\nGOTO/1,2,3\nFINI\nRAPID\n").messages(),
               ElementsAre("5:1: a statement after FINI: what follows is not read"));
+}
+
+TEST(ClPathBadInputTest, BinaryFiles) {
+  // Without NUL bytes, which nc::Program refuses, it is a text of unknown statements.
+  std::string bytes;
+  for (int i = 0; i < 20'000; ++i) bytes += static_cast<char>(1 + (i * 7919 + i / 255) % 255);
+  const ClRun run = RunCl(bytes, ClOptions{});
+  EXPECT_TRUE(run.motions().empty());
+  EXPECT_TRUE(run.diagnostics.has_errors());
+  const std::string path = testing::TempDir() + "ncsim_cl_path_test.cls";
+  std::ofstream(path, std::ios::binary) << "TOOL PATH/A,TOOL,T\n" << std::string(3, '\0');
+  Diagnostics diagnostics;
+  EXPECT_EQ(nc::Program::Load(path, &diagnostics), nullptr);
+  EXPECT_THAT(ToString(diagnostics.all().front()), HasSubstr(":2: error: is not a text"));
+  std::filesystem::remove(path);
 }
 
 TEST(ClPathBadInputTest, AxesThatAreNone) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "post/cl_words.h"
 
@@ -231,7 +233,7 @@ TEST_F(ClReaderTest, WhatIsNotKnownIsReported) {
 }
 
 TEST(ClWordsTest, AreInOrderAndSayWhatTheyAre) {
-  const std::vector<ClWord>& words = ClWords();
+  const std::span<const ClWord> words = ClWords();
   EXPECT_TRUE(std::is_sorted(words.begin(), words.end(),
                              [](const ClWord& a, const ClWord& b) { return a.major < b.major; }));
   for (const ClWord& word : words) {
@@ -241,6 +243,18 @@ TEST(ClWordsTest, AreInOrderAndSayWhatTheyAre) {
   }
   EXPECT_EQ(FindClWord(""), nullptr);
   EXPECT_EQ(FindClWord("ZZZ"), nullptr);
+}
+
+TEST(ClWordsTest, TheDocumentHasTheTable) {
+  std::ifstream file(std::string(NCSIM_SOURCE_DIR) + "/docs/cl-files.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::string table = "| word | what is done | meaning |\n|---|---|---|\n";
+  for (const ClWord& word : ClWords()) {
+    table += "| " + std::string(word.major) + " | " + std::string(ToString(word.use)) + " | " +
+             std::string(word.meaning) + " |\n";
+  }
+  EXPECT_NE(text.str().find(table), std::string::npos) << table;
 }
 
 }  // namespace

@@ -77,12 +77,17 @@ std::set<int> ToolNumbers(const nc::Program& program) {
 
 machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job& job,
                              const nc::Program& program) {
-  if (job.has_tools) return {job.tools};
+  const std::string& interface = machine.control.spindle_interface;
+  if (job.has_tools) {
+    machine::ToolTable table{job.tools};
+    for (machine::Tool& tool : table.tools) machine::ChangeAssumedHolder(interface, &tool);
+    return table;
+  }
   const double unit = HeaderUnit(machine, job, program);
   std::map<int, machine::Tool> tools;
   for (const nc::HeaderTool& header : nc::ReadHeaderTools(program)) {
     machine::Tool tool = machine::AssumeTool(header.number, header.name, unit * header.diameter,
-                                             unit * header.corner_radius, 0.0, "");
+                                             unit * header.corner_radius, 0.0, interface);
     tool.assumed +=
         " (diameter from the program's comment at line " + std::to_string(header.line) + ")";
     tools.emplace(header.number, std::move(tool));
@@ -90,7 +95,7 @@ machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job
   const bool sinumerik = machine.control.dialect == control::kSinumerik840d;
   for (const int number : sinumerik ? SinumerikToolNumbers(program) : ToolNumbers(program)) {
     if (tools.count(number) == 0) {
-      tools.emplace(number, machine::AssumeTool(number, "", 0.0, 0.0, 0.0, ""));
+      tools.emplace(number, machine::AssumeTool(number, "", 0.0, 0.0, 0.0, interface));
     }
   }
   machine::ToolTable table;

@@ -54,6 +54,8 @@ void SinumerikInterpreter::CancelFrame(bool traori, const SourcePosition& where)
     Unsupported("TRAORI or TRAFOOF under G41 or G42", where);
   }
   if (tool_frame()) Unsupported("TRAORI or TRAFOOF under TOROT", where);
+  if (swivel_.active) Unsupported("TRAORI while CYCLE800 is active", where);
+  swivel_ = {};
   std::string cancelled;
   const bool plain = modal_.program.is_zero();
   if (modal_.offset != 0) cancelled = SinumerikRegisters::FrameName(modal_.offset);
@@ -85,9 +87,14 @@ Frame SinumerikInterpreter::MakeFrame() const {
   frame.offset_index =
       parts_.part_frames->Index(SinumerikRegisters::FrameName(modal_.offset), frame.offset);
   for (std::size_t i = 0; i < 3; ++i) frame.offset[kA + i] += program.rotary[i];
-  const Eigen::Matrix3d turned = settable * modal_.tool_turn;
-  frame.program.linear = turned * program.linear;
-  frame.program.to = turned * program.shift;
+  const Eigen::Matrix3d inner = swivel_.plane.rotation * modal_.tool_turn;
+  frame.program.linear = settable * inner * program.linear;
+  frame.program.to = settable * (swivel_.plane.origin + inner * program.shift);
+  if (swivel_.active) {
+    const ProgramFrame turned = parts_.frames->OnTable(frame.offset, swivel_.tables);
+    frame.program.to = turned.to + turned.linear * frame.program.to;
+    frame.program.linear = turned.linear * frame.program.linear;
+  }
   frame.program.active = !IsIdentity(frame.program.linear) || !frame.program.to.isZero(0.0);
   ApplyLength(&frame, active_.length);
   if (traori_) frame.rotation = Frame::Rotation::kTcp;
@@ -125,6 +132,9 @@ void SinumerikInterpreter::RefreshFrame() {
   for (std::size_t axis = 0; axis < kNumAxes && carries; ++axis) {
     carry_[axis] += before[axis] - position_[axis];
     carry_turned_[axis] = carry_turned_[axis] || turned;
+  }
+  if (swivel_.active && !IsIdentity(modal_.settable.Linear())) {
+    Unsupported("a turned work offset while CYCLE800 is active", step_->where);
   }
   if (frame_->offset_index >= kMaxPartFrames) {
     log_.Alarm(Rule::kUnsupportedCode, step_->where, "too many different work offsets in one run");

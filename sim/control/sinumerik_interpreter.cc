@@ -17,11 +17,13 @@ using nc::Support;
 // mm, deg: what G642 to G645 and the compressors may leave the path by where nobody states it
 // (MD33100, standard value).
 constexpr double kStandardTolerance = 0.05;
+constexpr double kStandardOrientation = Radians(0.05);
 
 ContourOptions CompensationOptions() {
   ContourOptions options;
   options.type_b = false;         // NORM: straight to the point beside the contour's start.
   options.fanuc_corners = false;  // G450: an arc about an outside corner.
+  options.corner_names = {"RND=", "CHR=", "CHF="};
   return options;
 }
 
@@ -50,6 +52,11 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
             log_.ReportOnce("compensation", Rule::kUnsupportedCode, finding.where,
                             "G41 or G42 was not simulated here: " + finding.message);
             if (alarm) log_.Stop();
+          },
+          [this](const Finding& finding) {
+            // The control shortens a corner that does not fit, or leaves it out.
+            log_.ReportOnce("corner", Rule::kUnsupportedCode, finding.where,
+                            "RND, CHR or CHF was not simulated here: " + finding.message);
           }),
       tool_(start_tool) {
   for (const nc::SinumerikCommand& row : nc::Sinumerik840dGCodes()) {
@@ -255,6 +262,7 @@ void SinumerikInterpreter::UpdatePrototype() {
   command_.plane = plane_;
   command_.full_circle = false;
   command_.arc_normal.setZero();
+  command_.corner_radius = command_.corner_chamfer = command_.corner_chamfer_length = 0.0;
   command_.feed_mode = FeedType(modal_.codes[kSinFeedMode]);
   const bool inverse = command_.feed_mode == Command::FeedMode::kInverseTime;
   const bool revolution = command_.feed_mode == Command::FeedMode::kPerRevolution;
@@ -284,14 +292,8 @@ void SinumerikInterpreter::UpdateTolerance() {
   const bool compresses = !Is(kSinCompressor, "COMPOF");
   command_.exact_stop = stops && !smooths && !compresses;
   command_.corner_rounding = contour_tolerance_;
-  command_.orientation_tolerance = smooths ? orientation_tolerance_ : OrientationTolerance();
-  if (traori_ && command_.orientation_tolerance > 0.0) {
-    // Bodies are not widened by what the tool may lean.
-    log_.Assume("orientation tolerance",
-                "the tool axis is taken as programmed; smoothing may turn it by up to " +
-                    Short(Degrees(command_.orientation_tolerance), 3) + " deg",
-                true);
-  }
+  // SD42466: only with an orientation transformation.
+  command_.orientation_tolerance = traori_ && smooths ? orientation_tolerance_ : 0.0;
   if (smooths || command_.exact_stop) return;
   if (Is(kSinExactStop, "G641") && !compresses) {
     command_.corner_rounding = (motion_ == MotionMode::kRapid ? adispos_ : adis_).value_or(0.0);
@@ -305,20 +307,15 @@ void SinumerikInterpreter::UpdateTolerance() {
                     " mm: G642 to G645 and compressors leave the path by no more (MD33100)",
                 false);
   }
-}
-
-/// Without CYCLE832, rad: OTOL, else what MD33100 lets a compressor or G642 to G645 do.
-double SinumerikInterpreter::OrientationTolerance() {
-  if (otol_) return *otol_;
-  const bool compresses = !Is(kSinCompressor, "COMPOF");
-  const bool corners =
-      !Is(kSinExactStop, "G60") && !Is(kSinExactStop, "G64") && !Is(kSinExactStop, "G641");
-  if (!traori_ || !(compresses || (corners && !exact_stop_here_))) return 0.0;
-  log_.Assume("smoothing of rotary axes",
-              Short(kStandardTolerance) +
-                  " deg: G642 to G645 and compressors turn the tool by no more (MD33100)",
-              false);
-  return Radians(kStandardTolerance);
+  if (!traori_) return;
+  command_.orientation_tolerance = otol_.value_or(kStandardOrientation);
+  if (!otol_) {
+    log_.Assume(
+        "orientation tolerance",
+        Short(Degrees(kStandardOrientation), 3) +
+            " deg: G642 to G645 and compressors turn the tool by no more (SD42466, SD42476)",
+        false);
+  }
 }
 
 /// S, F, T and the words of smoothing.

@@ -22,9 +22,11 @@
 #include "sim/control/part_frames.h"
 #include "sim/control/run_log.h"
 #include "sim/control/sinumerik_arc.h"
+#include "sim/control/sinumerik_cycle_arguments.h"
 #include "sim/control/sinumerik_flow.h"
 #include "sim/control/sinumerik_registers.h"
 #include "sim/control/sinumerik_settings.h"
+#include "sim/control/sinumerik_swivel.h"
 #include "sim/control/to_motion.h"
 #include "sim/machine/machine.h"
 #include "sim/machine/tool.h"
@@ -73,9 +75,12 @@ class SinumerikInterpreter {
   void Execute(SinumerikStep* step);
   /// The block executed last moved the path: a modal call follows it.
   bool moved() const { return moved_; }
+  /// To the next position of a pattern of holes (HOLES1 ...) that the block has called, as a motion
+  /// that a modal call follows. False: there is none.
+  bool NextPosition();
   /// A cycle, called in a block or by MCALL behind one.
-  void ExecuteCycle(const nc::SinumerikCommand& cycle,
-                    std::span<const nc::SinumerikValue> arguments, SourcePosition where);
+  void ExecuteCycle(const nc::SinumerikCommand& cycle, std::span<const nc::SinumerikValue> values,
+                    SourcePosition where);
   /// A subprogram with SAVE begins, and ends: modal G codes and the programmable frame.
   void Save();
   void Restore();
@@ -99,6 +104,7 @@ class SinumerikInterpreter {
   double system_unit() const { return feed_mm_; }
   double tool_length() const { return active_.length; }
   const AffineFrame& program_frame() const { return modal_.program; }
+  bool swivels() const { return swivel_.active; }
   bool tool_frame() const { return modal_.tool_turn != Eigen::Matrix3d::Identity(); }
   const SettableFrame& active_settable() const { return modal_.settable; }
   void SetProgramFrame(const AffineFrame& frame);
@@ -122,6 +128,12 @@ class SinumerikInterpreter {
     kThroughPoint,
     kTangent
   };
+  /// What CYCLE800 has laid between work offset and programmable frame.
+  struct SwivelState {
+    bool active = false;
+    SwivelPlane plane;    ///< In the coordinates of the work offset, rotary axes at 0.
+    AxisValues tables{};  ///< Machine values of the rotary axes; the frame does not follow them.
+  };
 
   // sinumerik_interpreter.cc: blocks and modal state
   void ApplyCodes();
@@ -129,7 +141,6 @@ class SinumerikInterpreter {
   void UpdateModes();
   void UpdatePrototype();
   void UpdateTolerance();
-  double OrientationTolerance();
   void ApplyTechnology();
   void ApplyM(bool at_end);
   void ExecuteM(int code, const SinumerikItem& item);
@@ -172,7 +183,7 @@ class SinumerikInterpreter {
   // sinumerik_motion.cc
   void ExecuteAction(const SinumerikItem& item);
   void Dwell();
-  void ReferencePoint();
+  void MachinePoint(const SinumerikItem& item);
   void ExecuteMotion();
   void PositionAxis();
   bool TakeTargets(AxisValues* end, unsigned* named);
@@ -185,6 +196,7 @@ class SinumerikInterpreter {
   bool TakePitch();
   bool CheckFeed();
   void Move(const AxisValues& end, unsigned named);
+  bool TakeCorner();
   void MoveOnArc(const SinumerikArcWords& words);
   bool CheckArcFrame();
   void Push();
@@ -204,10 +216,30 @@ class SinumerikInterpreter {
   bool vector_path() const;
   std::string_view WrapNote() const;
 
+  // sinumerik_cycle800.cc
+  std::string CannotSwivel(const SinumerikCycleArguments& arguments) const;
+  void Swivel(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  bool SolveSwivel(const SinumerikCycleArguments& arguments, const SwivelPlane& from,
+                   const SourcePosition& where, SwivelPlane* plane, JointVector* joints);
+  std::optional<kinematics::RotarySolution> StandingSwivel(
+      const std::vector<kinematics::RotarySolution>& solutions, const std::array<double, 2>& here,
+      const SourcePosition& where);
+  std::optional<kinematics::RotarySolution> TurnedSwivel(
+      std::vector<kinematics::RotarySolution> solutions, const std::array<double, 2>& here,
+      const SwivelPlane& plane, long direction, const SourcePosition& where);
+  std::optional<kinematics::RotarySolution> PoleSwivel(kinematics::RotarySolution solution,
+                                                       const std::array<double, 2>& here,
+                                                       const SwivelPlane& plane, long direction,
+                                                       const SourcePosition& where);
+  bool RetractToSwivel(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  void TurnTables(const AxisValues& target, bool tracks);
+
   // sinumerik_cycles.cc
-  void HighSpeedSettings(std::span<const nc::SinumerikValue> arguments,
-                         const SourcePosition& where);
+  void HighSpeedSettings(const SinumerikCycleArguments& arguments, const SourcePosition& where);
   void CheckToleranceFactor();
+  std::string CannotDrill() const;
+  void Drill(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  void MakePattern(const SinumerikCycleArguments& arguments, const SourcePosition& where);
 
   Parts parts_;
   const SinumerikSettings& settings_;
@@ -224,6 +256,7 @@ class SinumerikInterpreter {
 
   Modal modal_;
   std::vector<Modal> saved_;
+  SwivelState swivel_;
   MotionMode motion_ = MotionMode::kLine;
   Plane plane_ = Plane::kXY;
   bool incremental_ = false;
@@ -254,6 +287,9 @@ class SinumerikInterpreter {
   double factor_ = 0.0;           ///< deg a mm.
   bool factor_stated_ = false;
   std::optional<double> ctol_, otol_, adis_, adispos_;
+  std::vector<AxisValues> holes_;  ///< Of a pattern, still to be gone to; the next one last.
+  SourcePosition holes_where_;
+  int cycle_count_ = 0;
   bool offset_checked_ = false, length_checked_ = false, no_tool_reported_ = false;
 };
 

@@ -2,6 +2,7 @@
 // The tool's orientation under TRAORI: A3 B3 C3, A2 B2 C2, and how it goes from block to block (NC
 // programming 12/2019, "Tool orientation"; MD21100 to MD21108, MD21180, MD24540).
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -24,19 +25,6 @@ constexpr std::string_view kWrapNote =
     "the modulo axis back within 0 to 360 deg; MD30455 bit 2 = 1 takes the shortest way on; "
     "MD21104 "
     "= 0 with ORIWKS interpolates the tool vector, and the axis goes on past 360 deg";
-
-kinematics::RotaryLimits LimitsOf(const machine::Machine& machine,
-                                  const kinematics::FiveAxis& five_axis) {
-  kinematics::RotaryLimits limits;
-  for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
-    for (const machine::Axis& axis : machine.axes) {
-      if (axis.joint != five_axis.rotary()[i]) continue;
-      limits.lower.at(i) = axis.lower;
-      limits.upper.at(i) = axis.upper;
-    }
-  }
-  return limits;
-}
 
 }  // namespace
 
@@ -151,6 +139,12 @@ Eigen::Vector3d SinumerikInterpreter::InTable(const Eigen::Vector3d& axis) {
 bool SinumerikInterpreter::Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named) {
   const kinematics::FiveAxis& five_axis = parts_.frames->five_axis();
   const Eigen::Vector3d u_B = InTable(axis);
+  // A program repeats its vector from block to block: then nothing turns, not even by rounding.
+  AxisValues here = position_;
+  for (std::size_t i = kA; i < kNumAxes; ++i) here[i] += frame_->offset[i];
+  Eigen::Vector3d p_B, now_B;
+  five_axis.TipInTable(axes_.Joints(here), 0.0, &p_B, &now_B);
+  if (now_B.cross(u_B).norm() < kSame && now_B.dot(u_B) > 0.0) return true;
   const std::array<double, 2> from = RotaryJoints(position_);
   const auto all = kinematics::ReachableRotary(five_axis, u_B, from, {});
   if (all.empty()) {
@@ -181,7 +175,7 @@ bool SinumerikInterpreter::WithinLimits(const Eigen::Vector3d& u_B,
                                         const std::array<double, 2>& from, bool led,
                                         std::array<double, 2>* reached) {
   const kinematics::FiveAxis& five_axis = parts_.frames->five_axis();
-  const kinematics::RotaryLimits limits = LimitsOf(*parts_.machine, five_axis);
+  const kinematics::RotaryLimits limits = RotaryLimitsOf(*parts_.machine, five_axis);
   const auto written = [&](const std::array<double, 2>& angles) {
     std::string text;
     for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
@@ -204,10 +198,19 @@ bool SinumerikInterpreter::WithinLimits(const Eigen::Vector3d& u_B,
   const int units = settings_.limit_mode % 10;
   const auto others = kinematics::ReachableRotary(five_axis, u_B, from, limits);
   if (others.empty()) return Alarm(step_->where, 10720, position + ", and there is no other way");
-  if (units == 0 || (units == 1 && led)) {
+  const bool stops = units == 0 || (units == 1 && led);
+  if (stops && settings_.limit_mode_stated) {
     return Alarm(step_->where, 10720,
                  position + "; " + written(others[0].angles) + " would do, but MD21180 = " +
                      std::to_string(settings_.limit_mode) + " does not let the control take it");
+  }
+  if (stops) {
+    log_.ReportOnce("MD21180", Rule::kUnsupportedCode, step_->where,
+                    position +
+                        "; the control stops there with alarm 10720 (MD21180 = 0), or goes "
+                        "to " +
+                        written(others[0].angles) +
+                        ", as simulated (MD21180 = 2): state MD21180 in the job");
   }
   if (settings_.limit_mode >= 10) {
     Unsupported("MD21180 = " + std::to_string(settings_.limit_mode), step_->where, position);
@@ -224,7 +227,8 @@ void SinumerikInterpreter::PassPole() {
   const kinematics::FiveAxis& five_axis = parts_.frames->five_axis();
   const std::array<double, 2> from = RotaryJoints(position_);
   const std::array<double, 2> to = RotaryJoints(command_.end);
-  if (five_axis.rotary().size() < 2 || from == to) return;
+  const double turn = std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
+  if (five_axis.rotary().size() < 2 || turn < kSame) return;
   GreatCircle circle;
   const GreatCircle::Fault fault = GreatCircle::Make(five_axis, from, to, &circle);
   const int mode = settings_.pole_mode;

@@ -18,6 +18,8 @@
 
 namespace ncsim::control {
 
+inline constexpr int kNumFixedPoints = 4;
+
 struct SinumerikSettings {
   /// A, B, C.
   struct RotaryAxis {
@@ -41,13 +43,19 @@ struct SinumerikSettings {
   double pole_limit = 2.0 * kPi / 180.0;   ///< MD24540, rad: about the pole, what MD21108 is for.
   bool pole_stated = false;                ///< Whether anybody states MD21108.
   int limit_mode = 0;                      ///< MD21180.
+  bool limit_mode_stated = false;          ///< Not only by a nominal model.
   /// SD5544n by the units of CYCLE832's type, where anybody states them: deg for each mm.
   std::array<std::optional<double>, 5> tolerance_factors{};
-  bool m6_changes = true;         ///< MD22550.
-  bool incremental_frame = true;  ///< SD42440: G91 goes a new frame's shift too.
-  bool incremental_tool = true;   ///< SD42442: likewise a new tool's length.
-  int length_plane = 0;           ///< SD42940: whose plane's axis length 1 counts along.
-  unsigned skip_levels = 0;       ///< Bit n: `/n` is left out.
+  bool m6_changes = true;               ///< MD22550.
+  bool incremental_frame = true;        ///< SD42440: G91 goes a new frame's shift too.
+  bool incremental_tool = true;         ///< SD42442: likewise a new tool's length.
+  int length_plane = 0;                 ///< SD42940: whose plane's axis length 1 counts along.
+  std::optional<unsigned> swivel_mask;  ///< SD55221.
+  int swivel_reference = 0;             ///< Rotary axis that _DIR refers to, 1 or 2; 0: unstated.
+  std::array<std::optional<double>, 3> swivel_retract;  ///< $TC_CARR38 to 40: X, Y, Z; mm.
+  /// MD30600: machine values of each axis; mm, rad.
+  std::array<std::array<std::optional<double>, kNumAxes>, kNumFixedPoints> fixed_points{};
+  unsigned skip_levels = 0;  ///< Bit n: `/n` is left out.
   bool optional_stop = false;
 };
 

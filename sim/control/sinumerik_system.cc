@@ -86,13 +86,14 @@ Access Sinumerik840dSystem::ReadFrame(std::string_view name, Indices indices, Si
     const SettableFrame& active = interpreter_->active_settable();
     AffineFrame whole = interpreter_->program_frame();
     if (name == "$P_ACTFRAME") whole = Chained(ToAffine(active), whole);
-    const bool turned = name == "$P_ACTFRAME" && interpreter_->tool_frame();
+    const bool turned =
+        name == "$P_ACTFRAME" && (interpreter_->tool_frame() || interpreter_->swivels());
     if (!turned) frame = name == "$P_IFRAME" ? active : ToSettable(whole);
     if (name != "$P_PFRAME") AssumeStated(interpreter_->settable_frame(), active.stated);
   }
   if (!frame) {
     *message = "reading " + std::string(name) +
-               ", which is mirrored, distorted or turned by TOROT, was not simulated";
+               ", which is mirrored, distorted or turned by TOROT or CYCLE800, was not simulated";
     return Access::kUnknown;
   }
   if (indices.empty()) {

@@ -133,10 +133,6 @@ TEST(SinumerikTraori, Cycle832SetsTolerancesUntilItIsSwitchedOff) {
       std::string(kStart) + "CYCLE832(0.01,_ORI_ROUGH,1)\nG1 F500 X1\nCYCLE832()\nX2\n");
   EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.01, 1e-12) << run.Text();
   EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(1.0), 1e-12);
-  // What may lean and is not widened by it is doubt.
-  EXPECT_TRUE(std::any_of(
-      run.summary.assumptions.begin(), run.summary.assumptions.end(),
-      [](const Assumption& a) { return a.name == "orientation tolerance" && a.places_metal; }));
   EXPECT_EQ(run.Last(7).facts.corner_rounding, 0.0);
 }
 
@@ -234,6 +230,23 @@ TEST(SinumerikTraori, FromThePoleTheAxesGoInProportionOrCTurnsFirst) {
   }
 }
 
+TEST(SinumerikTraori, ARepeatedVectorTurnsNothing) {
+  // As posts write them: in every block. The rotary axes keep their bits, also behind a circle that
+  // has led C on past 360 deg with a work offset of C.
+  SinumerikTest control;
+  control.SetOffset("G54", {{'X', 10.0}, {'Y', 20.0}, {'Z', -250.0}, {'C', 33.3}});
+  const std::string vector = " A3=0.3 B3=-0.05 C3=1\n";
+  const TestRun run = control.Run(
+      std::string(kStart) + "ORIVECT G1 F500 A3=0.3 B3=0.1 C3=1\nX1" + vector + "X2" + vector +
+      "X3 A3=0.6 B3=-0.1 C3=2\nA3=0.3 B3=0.2 C3=1\n" + "X5 B21 C10\nX6 B21 C10\nX7" + vector);
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  for (const int line : {6, 7, 10}) {
+    const motion::Motion& motion = run.Last(line);
+    EXPECT_EQ(motion.q0()[kJointB], motion.q1()[kJointB]) << line;
+    EXPECT_EQ(motion.q0()[kJointC], motion.q1()[kJointC]) << line;
+  }
+}
+
 TEST(SinumerikTraori, ThroughThePoleAndBesideIt) {
   // B10 to 5 degrees on the other side: through the pole, B-5. From B10 C0 to a tilt of 10 at 120:
   // the circle keeps atan(tan 10 cos 60) = 5.04 degrees off, so that C turns all the way.
@@ -263,6 +276,13 @@ TEST(SinumerikTraori, BehindTheLimitsMd21180Decides) {
   SinumerikTest control;
   const std::string text = std::string(kStart) + "ORIAXES G1 F500 A3=-1 C3=1 X1\n";
   TestRun run = control.Run(text);
+  // Nobody has read it off the machine: not known, and simulated at the other position.
+  ASSERT_EQ(run.findings.size(), 1u) << run.Text();
+  EXPECT_EQ(run.findings[0].rule, Rule::kUnsupportedCode);
+  EXPECT_NE(run.findings[0].message.find("10720"), std::string::npos) << run.Text();
+  ExpectTip(control, run, 4, {1, 0, 20}, Axis(45, 180));
+  control.job.control["MD21180"] = "0";
+  run = control.Run(text);
   ASSERT_TRUE(run.Has(Rule::kControlAlarm)) << run.Text();
   const std::string& message = run.Find(Rule::kControlAlarm)->message;
   for (const char* words :
@@ -286,10 +306,39 @@ TEST(SinumerikTraori, VectorsTurnWithTheFrameUnderOriwksOnly) {
   EXPECT_NEAR(Degrees(run.Last(5).q1()[kJointB]), 0.0, 1e-9);
 }
 
+// OTOL holds for compressors and G642 to G645, not for G641 (programming manual 06/2009, p. 566).
+TEST(SinumerikTraori, OtolOrWhatIsAssumedOfIt) {
+  const std::string feeds =
+      "G642 CTOL=0.02 OTOL=0.5\nG1 F500 X1\nG641 ADIS=0.3\nX2\nG645 OTOL=-1\nX3\nG60\nX4\n";
+  const TestRun run = SinumerikTest().Run(std::string(kStart) + feeds);
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.02, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(0.5), 1e-12);
+  EXPECT_EQ(run.Last(7).facts.orientation_tolerance, 0.0);
+  EXPECT_NEAR(run.Last(9).facts.orientation_tolerance, Radians(0.05), 1e-12);
+  EXPECT_EQ(run.Last(11).facts.orientation_tolerance, 0.0);
+  EXPECT_EQ(std::count_if(run.summary.assumptions.begin(), run.summary.assumptions.end(),
+                          [](const Assumption& a) { return a.name == "orientation tolerance"; }),
+            1);
+}
+
+// Programming manual 07/2010 of the 828D, p. 494: G0 has the same tolerances, times a factor that
+// is 1 as delivered. SD42466: without TRAORI nothing of the orientation is smoothed.
+TEST(SinumerikTraori, RapidsAreSmoothedToo) {
+  const std::string smooth =
+      "CYCLE832(0.01,_ORI_ROUGH,1)\nG0 X1\nTRAFOOF\nG54\nG0 X2\nG1 F500 X3\n";
+  const TestRun run = SinumerikTest().Run(std::string(kStart) + smooth);
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.01, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.orientation_tolerance, Radians(1.0), 1e-12);
+  for (const int line : {8, 9}) {
+    EXPECT_NEAR(run.Last(line).facts.corner_rounding, 0.01, 1e-12) << line;
+    EXPECT_EQ(run.Last(line).facts.orientation_tolerance, 0.0) << line;
+  }
+}
+
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
   for (const std::string block :
-       {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5", "M77", "POS[X]=1", "G75 FP=1 X0", "TRACYL(40)",
-        "RND=2 X1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
+       {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5", "M77", "POS[X]=1", "G58 X1", "TRACYL(40)",
+        "RNDM=2 X1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
     const TestRun run = SinumerikTest().Run(std::string(kStart) + "G1 F500 X1\n" + block + "\n");
     EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << block << run.Text();
   }

@@ -203,7 +203,7 @@ void ToMotion::Execute(const Command& command) {
   }
   const bool rapid =
       command.kind == CommandKind::kRapid || command.kind == CommandKind::kMachineRapid;
-  if (!command.exact_stop && (!rapid || (options_.rounds_rapids && !IsMachine(command)))) {
+  if (!command.exact_stop && (!rapid || options_.rounds_rapids)) {
     motion_.facts.corner_rounding = command.corner_rounding;
     motion_.facts.orientation_tolerance = command.orientation_tolerance;
   }

@@ -126,9 +126,8 @@ std::shared_ptr<const Program> Program::Load(const std::string& path, Diagnostic
   for (std::size_t offset = 0; offset < text.size(); offset += kChunk) {
     const std::size_t nul = text.substr(offset, kChunk).find('\0');
     if (nul != std::string_view::npos) {
-      return fail(
-          LineOf(text, offset + nul),
-          "is not a text (it has NUL bytes): an NC program must be saved as plain ASCII or UTF-8");
+      return fail(LineOf(text, offset + nul),
+                  "is not a text (it has NUL bytes): it must be saved as plain ASCII or UTF-8");
     }
     program->Release(offset);
   }

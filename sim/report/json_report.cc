@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/base/units.h"
 #include "sim/report/result.h"
 
 namespace ncsim::report {
@@ -62,7 +63,8 @@ Json ToJson(const collision::PairClearance& clearance, const SourceFiles& files)
           {"proven_mm", RoundedDown(clearance.proven_mm)},
           {"seen_mm", Number(clearance.seen_mm, 2)},
           {"line", clearance.where.line},
-          {"file", files.name(clearance.where.file)}};
+          {"file", files.name(clearance.where.file)},
+          {"widened_mm", Number(clearance.widened_mm, 2)}};
 }
 
 Json ToJson(const collision::DeepestCut& cut, const SourceFiles& files) {
@@ -97,6 +99,7 @@ void WriteJson(const CheckResult& result, const SourceFiles& files, std::ostream
   json["cuts"] = Array(result.cuts, located);
   json["job"] = result.job.empty() ? Json(nullptr) : Json(result.job);
   json["motion_time_model"] = MotionTimeModel();
+  json["orientation_tolerance_deg"] = Number(Degrees(result.orientation_tolerance), 4);
   // Bytes that are not UTF-8 (names of files, comments in messages) become U+FFFD.
   out << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
 }

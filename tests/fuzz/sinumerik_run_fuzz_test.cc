@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBlocks = 300;
 
-constexpr std::array<std::string_view, 81> kBlocks = {
+constexpr std::array<std::string_view, 89> kBlocks = {
     "G54 G0 G90 X0 Y0 Z50 B0 C0 D1",
     "T2 M6",
     "T=\"BALL\" M6",
@@ -95,6 +95,14 @@ constexpr std::array<std::string_view, 81> kBlocks = {
     "POS[C]=IC(5)",
     "TOROT",
     "TOROTOF",
+    "CYCLE800(1,\"\",200000,57,0,0,0,20,10,30,0,0,0,-1,100,1)",
+    "CYCLE800()",
+    "MCALL CYCLE81(20,0,2,-5)",
+    "CYCLE83(20,0,2,-25,,-8,,2,0,0,0.8,1)",
+    "CYCLE84(20,0,2,-10,,0,5,,1.5,0,300,300)",
+    "MCALL",
+    "HOLES2(5,5,12,0,60,6)",
+    "G1 X15 Y12 RND=2",
     "G64 CYCLE832(0.01,_ORI_ROUGH,1)",
     "G642 COMPCAD CTOL=0.02 OTOL=0.5",
     "$P_UIFR[1]=CTRANS(X,5,Z,-300):CROT(Z,30)",
