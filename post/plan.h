@@ -63,8 +63,8 @@ struct PlanIndex {
   /// The turned plane in P: its directions in columns. kTcp: those of the machine, as the rotary
   /// axes have turned P under them. Not of kAxes.
   Eigen::Matrix3d plane_P = Eigen::Matrix3d::Identity();
-  /// The first pose of the motions that follow. kRewind: `retract` above where the feed goes on; the
-  /// moves out to there and back are steps of their own.
+  /// The first pose of the motions that follow. kRewind: `retract` above where the feed goes on;
+  /// the moves out to there and back are steps of their own.
   PlanPose approach;
   enum class Why : std::uint8_t {
     kOperation,  ///< An operation begins, with its tool in the spindle.
