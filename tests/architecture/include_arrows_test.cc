@@ -25,11 +25,14 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"sim/checks", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
     {"sim/collision", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
     {"sim/control", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
+    {"sim/compare",
+     {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control"}},
     {"sim/report",
-     {"sim/base", "kinematics", "sim/machine", "sim/motion", "sim/checks", "sim/collision"}},
+     {"sim/base", "kinematics", "sim/machine", "sim/motion", "sim/checks", "sim/collision",
+      "sim/compare"}},
     {"sim/app",
      {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control", "sim/checks",
-      "sim/collision", "sim/report"}},
+      "sim/collision", "sim/compare", "sim/report"}},
 };
 
 struct Library {

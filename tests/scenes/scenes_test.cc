@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenes as a user runs them: what passes passes without a word, and each program of the crash
-// gallery is found out by the rule that it is named after, at the line that its first comment
+// The scenes as a user runs them: what passes passes without a word, and each program of the
+// galleries is found out by the rule that it is named after, at the line that its first comment
 // states, in the words that docs/findings.md shows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -27,18 +28,21 @@ struct Outcome {
   std::string text;
 };
 
-Outcome Check(const fs::path& program) {
+Outcome RunNcsim(const std::vector<std::string>& args) {
   std::ostringstream out, err;
   Outcome outcome;
-  outcome.code = app::Run({"check", program.string()}, out, err);
+  outcome.code = app::Run(args, out, err);
   outcome.text = out.str() + err.str();
   return outcome;
 }
 
-std::vector<std::string> Gallery() {
+Outcome Check(const fs::path& program) { return RunNcsim({"check", program.string()}); }
+
+std::vector<std::string> ProgramsOf(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(kRoot / "scenes/crash_gallery")) {
-    if (entry.path().extension() == ".nc") names.push_back(entry.path().stem().string());
+  for (const auto& entry : fs::directory_iterator(kRoot / "scenes" / folder)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() == ".nc" && name != "reference") names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -60,15 +64,18 @@ TEST(Scenes, FiveAxisPasses) {
   EXPECT_EQ(outcome.code, app::kExitPass) << outcome.text;
 }
 
-// Every line that the README shows after "$ ncsim check PROGRAM", but for "...".
+// Every line that the README shows after "$ ncsim ...", but for "...".
 TEST(Scenes, TheReadmeShowsRealOutput) {
   std::ifstream readme(kRoot / "README.md");
-  const std::string prompt = "$ ncsim check ";
+  const std::string prompt = "$ ncsim ";
   fs::current_path(kRoot);
   std::string printed;
   int shown = 0;
   for (std::string line; std::getline(readme, line);) {
-    if (line.starts_with(prompt)) printed = "\n" + Check(line.substr(prompt.size())).text;
+    if (line.starts_with(prompt)) {
+      std::istringstream words(line.substr(prompt.size()));
+      printed = "\n" + RunNcsim({std::istream_iterator<std::string>(words), {}}).text;
+    }
     if (line.starts_with("```")) printed.clear();
     if (printed.empty() || line.starts_with(prompt) || line == "  ...") continue;
     EXPECT_NE(printed.find("\n" + line + "\n"), std::string::npos) << line;
@@ -77,36 +84,34 @@ TEST(Scenes, TheReadmeShowsRealOutput) {
   EXPECT_GE(shown, 8);
 }
 
-TEST(Scenes, TheGalleryHasEveryRule) {
-  const std::vector<std::string> names = Gallery();
+TEST(Scenes, TheGalleriesHaveEveryRule) {
+  std::vector<std::string> names = ProgramsOf("crash_gallery");
+  const std::vector<std::string> compared = ProgramsOf("compare_gallery");
+  names.insert(names.end(), compared.begin(), compared.end());
   for (const RuleInfo& rule : Rules()) {
     EXPECT_TRUE(std::count(names.begin(), names.end(), std::string(rule.id)))
-        << "no program in scenes/crash_gallery shows " << rule.id;
+        << "no program of the galleries shows " << rule.id;
   }
 }
 
-class CrashGallery : public ::testing::TestWithParam<std::string> {};
-
 // Line 0 in EXPECT is a finding about the whole run.
-TEST_P(CrashGallery, IsFoundAtItsLine) {
-  const fs::path program = kRoot / "scenes/crash_gallery" / (GetParam() + ".nc");
+void ExpectFound(const fs::path& program, const std::string& rule, const Outcome& outcome) {
   std::ifstream in(program);
   std::string first;
   std::getline(in, first);
   std::smatch expect;
   ASSERT_TRUE(std::regex_match(first, expect, std::regex(R"(\(EXPECT (\d+): ([a-z-]+)\)\r?)")))
       << first;
-  ASSERT_EQ(expect[2], GetParam());
-  const Outcome outcome = Check(program);
+  ASSERT_EQ(expect[2], rule);
   const std::string where =
       expect[1] == "0" ? R"(\.nc: )" : R"(\.nc:)" + expect[1].str() + R"(:\d+: )";
   std::smatch said;
   ASSERT_TRUE(
-      std::regex_search(outcome.text, said, std::regex(where + "[^\\n]*\\[" + GetParam() + "\\]")))
+      std::regex_search(outcome.text, said, std::regex(rule + where + "[^\\n]*\\[" + rule + "\\]")))
       << outcome.text;
-  const std::string example = "\n" + GetParam() + said.str() + "\n";
+  const std::string example = "\n" + said.str() + "\n";
   EXPECT_NE(Findings().find(example), std::string::npos) << "docs/findings.md lacks" << example;
-  const Severity severity = Info(*RuleFromId(GetParam())).severity;
+  const Severity severity = Info(*RuleFromId(rule)).severity;
   if (severity == Severity::kError) {
     EXPECT_EQ(outcome.code, app::kExitFail) << outcome.text;
   }
@@ -115,11 +120,36 @@ TEST_P(CrashGallery, IsFoundAtItsLine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryProgram, CrashGallery, ::testing::ValuesIn(Gallery()),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+std::string TestName(const testing::TestParamInfo<std::string>& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+class CrashGallery : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(CrashGallery, IsFoundAtItsLine) {
+  const fs::path program = kRoot / "scenes/crash_gallery" / (GetParam() + ".nc");
+  ExpectFound(program, GetParam(), Check(program));
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryProgram, CrashGallery,
+                         ::testing::ValuesIn(ProgramsOf("crash_gallery")), TestName);
+
+class CompareGallery : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(CompareGallery, IsFoundAtItsLine) {
+  const fs::path folder = kRoot / "scenes/compare_gallery";
+  const fs::path program = folder / (GetParam() + ".nc");
+  const Outcome outcome =
+      RunNcsim({"compare", (folder / "reference.nc").string(), program.string()});
+  ExpectFound(program, GetParam(), outcome);
+  EXPECT_NE(outcome.text.find(": 1 error, 0 unproven, 0 warnings; ") == std::string::npos,
+            outcome.text.find(": 0 errors, 0 unproven, 1 warning; ") == std::string::npos)
+      << outcome.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryProgram, CompareGallery,
+                         ::testing::ValuesIn(ProgramsOf("compare_gallery")), TestName);
 
 }  // namespace
