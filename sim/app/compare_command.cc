@@ -8,9 +8,11 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "post/cl_path.h"
 #include "sim/app/app.h"
 #include "sim/app/assumptions.h"
 #include "sim/app/finding_log.h"
@@ -18,6 +20,7 @@
 #include "sim/app/tool_source.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
+#include "sim/compare/cl_toolpath.h"
 #include "sim/compare/nc_path.h"
 #include "sim/control/sinumerik_840d.h"
 #include "sim/machine/load.h"
@@ -41,11 +44,27 @@ Increments IncrementsOf(const machine::Machine& machine, const machine::Job& job
   return inch ? Increments{0.0001 * kMmPerInch, 0.1 * kMmPerInch / 60.0} : Increments();
 }
 
+/// By its content: a statement GOTO/x,y,z, which no control has.
+bool IsClFile(const nc::Program& program) {
+  const std::string_view text = program.text();
+  for (std::size_t at = program.begin(); at < text.size();) {
+    const std::string_view line = program.Line(at);
+    const std::size_t word = line.find_first_not_of(" \t");
+    if (word != std::string_view::npos && line.substr(word).starts_with("GOTO")) {
+      const std::size_t next = line.find_first_not_of(" \t", word + 4);
+      if (next != std::string_view::npos && line[next] == '/') return true;
+    }
+    at += line.size() + 1;
+  }
+  return false;
+}
+
 /// One of the two programs, read and followed.
 struct Side {
   std::string name, model_option, job_option;
   std::shared_ptr<const nc::Program> program;
   machine::Job job;
+  bool cl = false;  ///< A cutter-location file: no control, no machine.
   std::optional<machine::Machine> machine;
   Increments increments;
   report::ComparedProgram report;
@@ -66,6 +85,8 @@ class Comparing {
 
   int Run(std::ostream& out) {
     if (!Load(&reference_) || !Load(&tested_)) return kExitBadInput;
+    // What the CAM system meant is what is right.
+    if (tested_.cl && !reference_.cl) std::swap(reference_, tested_);
     SetTolerances();
     // The tested program first: its findings, and its files, come first.
     if (!Follow(&tested_) || !Follow(&reference_)) return kExitBadInput;
@@ -88,6 +109,12 @@ class Comparing {
     Diagnostics diagnostics;
     side->program = nc::Program::Load(side->name, &diagnostics);
     if (side->program == nullptr || !Fine(diagnostics)) return Fine(diagnostics);
+    side->report.program = side->name;
+    side->cl = IsClFile(*side->program);
+    if (side->cl) {
+      side->increments = {0.0, 0.0};
+      return true;
+    }
     std::string complaint;
     auto job_path = JobPath(side->name, side->job_option, &complaint);
     if (!job_path) return Complain(complaint);
@@ -111,13 +138,33 @@ class Comparing {
   void SetTolerances() {
     compare::Tolerances& tolerances = result_.tolerances;
     const double increment = std::max(reference_.increments.position, tested_.increments.position);
-    tolerances.position = options_.tolerance.value_or(kPosition + increment);
+    const double used = increment > 0.0 ? increment : Increments().position;
+    tolerances.position = options_.tolerance.value_or(kPosition + used);
     tolerances.angle = Radians(options_.angle_tolerance.value_or(kAngle));
     tolerances.feed_resolution =
         0.5 * std::max(reference_.increments.feed, tested_.increments.feed);
   }
 
-  bool Follow(Side* side) {
+  bool Follow(Side* side) { return side->cl ? FollowCl(side) : FollowNc(side); }
+
+  bool FollowCl(Side* side) {
+    Diagnostics diagnostics;
+    post::ClOptions options;
+    options.need_tool = false;  // Tools are not compared.
+    post::ClPath path(side->program, files_.Add(side->name), options, &diagnostics);
+    compare::ClToolpath toolpath(compare::ChordErrorFor(result_.tolerances));
+    for (post::ClEvent event; path.Next(&event); ++side->report.blocks) toolpath.OnEvent(event);
+    if (!Fine(diagnostics)) return false;
+    side->findings = toolpath.TakeFindings();
+    side->path = toolpath.Take();
+    return toolpath.motions() > 0 || Motionless(*side);
+  }
+
+  bool Motionless(const Side& side) {
+    return Complain(side.name + ": error: the program moves no axis: there is nothing to compare");
+  }
+
+  bool FollowNc(Side* side) {
     const machine::ToolTable tools = FindTools(*side->machine, side->job, *side->program);
     std::vector<control::PartFrame> part_frames;
     compare::NcPath path(*side->machine, tools, part_frames,
@@ -129,10 +176,7 @@ class Comparing {
     side->report.assumptions = summary.assumptions;
     side->findings = path.TakeFindings();
     side->path = path.Take();
-    if (path.motions() == 0 && side->findings.empty()) {
-      return Complain(side->name +
-                      ": error: the program moves no axis: there is nothing to compare");
-    }
+    if (path.motions() == 0 && side->findings.empty()) return Motionless(*side);
     if (!summary.finished && side->findings.empty()) {
       side->findings.push_back(
           MakeFinding(Rule::kUncertified, {}, side->name + " was not followed to its end"));

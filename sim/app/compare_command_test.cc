@@ -250,6 +250,41 @@ TEST_F(CompareCommandTest, TwoMachines) {
   EXPECT_THAT(out_, HasSubstr("/siemens.nc:9:1: error: the tip goes 0.100 mm away"));
 }
 
+// What NX writes (CIRCLE about (0, 0, -1) is counter-clockwise), and a program of it for each
+// machine; the feed of the hole is 100.
+constexpr const char* kCl =
+    "TOOL PATH/CUT,TOOL,MILL\nTLDATA/MILL,10.0000,0.0000,75.0000,0.0000,0.0000\n"
+    "MSYS/0.0000,0.0000,0.0000,1.0000000,0.0000000,0.0000000,0.0000000,1.0000000,0.0000000\n"
+    "LOAD/TOOL,2\nRAPID\nGOTO/10.0000,0.0000,5.0000,0.0000000,0.0000000,1.0000000\n"
+    "FEDRAT/MMPM,250.0000\nGOTO/10.0000,0.0000,0.0000\n"
+    "CIRCLE/0.0000,0.0000,0.0000,0.0000000,0.0000000,-1.0000000,10.0000,0.0600,0.5000,10.0000,"
+    "0.0000\nGOTO/-10.0000,0.0000,0.0000\nGOTO/-20.0000,3.0000,0.0000,0.5000000,0.0000000,"
+    "0.8660254\nRAPID\nGOTO/-20.0000,3.0000,30.0000\nEND-OF-PATH\n";
+
+TEST_F(CompareCommandTest, ACutterLocationFile) {
+  const std::string nc =
+      "G21 G90 G94\nT2 M06\nG54 S2500 M03\nG00 B0. C0.\nG00 X10. Y0.\nG00 G234 H02 Z5.\n"
+      "G01 Z0. F250.\nG03 X-10. Y0. I-10. J0.\nG01 X-20. Y3. B30.\nG00 Z30.\nM30\n";
+  const std::string job =
+      Write("job.toml", std::string(kHaasJob) + "[control]\n\"setting 9\" = \"mm\"\n");
+  const std::string cl = Write("a.cls", kCl);
+  const auto compare = [&](const std::string& text) {
+    return Compare({cl, Write("a.nc", text), "--job", job, "--assume", "all"});
+  };
+  EXPECT_EQ(compare(nc), kExitPass) << out_ << err_;
+  EXPECT_EQ(Compare({(folder_ / "a.nc").string(), cl, "--job", job, "--assume", "all"}), kExitPass);
+  EXPECT_EQ(compare(std::regex_replace(nc, std::regex("G03"), "G02")), kExitFail);
+  EXPECT_THAT(out_, HasSubstr("/a.nc:8:1: error: the tip goes 20.0"));
+  EXPECT_THAT(out_, HasSubstr("/a.cls:9: CIRCLE/"));
+  EXPECT_EQ(compare(std::regex_replace(nc, std::regex("B30"), "B-30")), kExitFail);
+  EXPECT_THAT(out_, HasSubstr("/a.nc:9:1: error: the tool axis is 60.0"));
+  EXPECT_EQ(compare(std::regex_replace(nc, std::regex("F250"), "F9")), kExitFail);
+  EXPECT_THAT(out_, HasSubstr("/a.nc:7:1: error: the feed is 9 mm/min, that of a.cls:8 is 250"));
+  Write("a.cls", std::string(kCl) + "NONSENSE/1\n");
+  EXPECT_EQ(compare(nc), kExitBadInput);
+  EXPECT_THAT(err_, HasSubstr("a.cls:15:1: error: unknown statement"));
+}
+
 TEST_F(CompareCommandTest, WhatIsNotSimulatedIsNotProven) {
   EXPECT_EQ(Plant(kBlock, "N85 G01 X85. F1400.", "N85 G01 X85. F1400.\nN86 G47 P1"), kExitUnproven);
   EXPECT_THAT(out_, HasSubstr("[unsupported-code]"));

@@ -46,7 +46,7 @@ TEST(DocsTest, ExamplesOfFindingsAreOfTheGalleries) {
 TEST(DocsTest, VerificationNamesTestsThatExist) {
   const std::regex definition(R"(TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))");
   std::set<std::string> tests;
-  for (const char* folder : {"sim", "kinematics", "tests"}) {
+  for (const char* folder : {"sim", "kinematics", "post", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kSource / folder)) {
       if (!entry.path().string().ends_with("_test.cc")) continue;
       const std::string text = Read(entry.path());

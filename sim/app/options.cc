@@ -146,8 +146,9 @@ class CommandLine {
 
   void AddCompare() {
     CompareOptions& o = command_.compare;
-    compare_ = AddCommand("compare", "hold two programs together: the same motion in the part?");
-    compare_->add_option("A", o.reference, "the program that is right");
+    compare_ = AddCommand("compare",
+                          "hold two programs (NC or CL) together: the same motion in the part?");
+    compare_->add_option("A", o.reference, "the program that is right, or its CL file");
     compare_->add_option("B", o.tested, "the program that is held against it");
     compare_->add_option("--model", o.model, "the machine, as for check; of both")
         ->type_name("M.urdf");

@@ -36,9 +36,11 @@ class Diagram {
  public:
   Diagram(const Run& a, const Run& b, const Radii& radii) : a_(a), b_(b), radii_(radii) {}
 
-  Walk Follow() {
+  Walk Follow(std::size_t most_cells) {
     Walk walk;
-    if (!Fill()) return walk;
+    if (!Fill(most_cells)) return walk;
+    walk.cut = cells_.size() > most_cells;
+    if (walk.cut) return walk;
     walk.complete = complete_;
     walk.steps = Back();
     return walk;
@@ -53,11 +55,11 @@ class Diagram {
   };
 
   /// All cells that can be reached, row by row. False where not even the start can.
-  bool Fill() {
+  bool Fill(std::size_t most_cells) {
     std::vector<Cell> row(1), next;
     row[0].bottom = AlongB(0, 0);
     if (row[0].bottom.empty() || row[0].bottom.lower > 0.0) return false;
-    for (std::size_t i = 0; i < a_.chords() && !row.empty(); ++i) {
+    for (std::size_t i = 0; i < a_.chords() && !row.empty() && cells_.size() <= most_cells; ++i) {
       row_begin_.push_back(cells_.size());
       next.clear();
       FillRow(i, row, &next);
@@ -191,8 +193,8 @@ Interval Near(const Pose& pose, const Pose& from, const Pose& to, const Radii& r
   return {std::max(p.lower, u.lower), std::min(p.upper, u.upper)};
 }
 
-Walk WalkTogether(const Run& a, const Run& b, const Radii& radii) {
-  return Diagram(a, b, radii).Follow();
+Walk WalkTogether(const Run& a, const Run& b, const Radii& radii, std::size_t most_cells) {
+  return Diagram(a, b, radii).Follow(most_cells);
 }
 
 }  // namespace ncsim::compare

@@ -20,14 +20,17 @@ struct Step {
 /// Where two runs can be walked together.
 struct Walk {
   bool complete = false;  ///< To the end of both.
+  bool cut = false;       ///< Given up: more cells than were allowed.
   /// From the start to the end, or as far as they can be walked; between two steps both go in
   /// proportion, on one chord each. Of all ways one that keeps close. Empty where the start itself
   /// is further apart than the radii.
   std::vector<Step> steps;
 };
 
-/// Walks both from their starts.
-Walk WalkTogether(const Run& a, const Run& b, const Radii& radii);
+/// Walks both from their starts. The work is in proportion to the cells that can be reached: pairs
+/// of chords that are near each other.
+Walk WalkTogether(const Run& a, const Run& b, const Radii& radii,
+                  std::size_t most_cells = static_cast<std::size_t>(-1));
 
 /// The part of the chord from `from` to `to` that is within the radii of `pose`: [lower, upper] of
 /// [0, 1]; empty where lower > upper.

@@ -12,8 +12,10 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kRelative = 5e-4;
-/// Pairs of chords that are looked at as they are; beyond it the runs are thinned.
-constexpr double kMostCells = 2e6;
+/// Pairs of chords that are looked at; where there are more the runs are thinned.
+constexpr std::size_t kMostCells = 200'000;
+/// Of the radii: what thinning may take off.
+constexpr double kThin = 2e-4;
 constexpr double kMostDoublings = 60;
 
 /// The least factor in [1, ...] for which `fits`, which holds for all above one for which it holds.
@@ -73,32 +75,43 @@ Run Thin(const Run& run, const Radii& radii, double ratio) {
   return thin;
 }
 
-Distance Apart(const Run& a, const Run& b, const Radii& radii) {
-  if (static_cast<double>(a.chords()) * static_cast<double>(b.chords()) > kMostCells) {
-    // Each round keeps fewer: what is left out stays small against what is found.
-    double ratio = 0.1;
-    Run thin_a = Thin(a, radii, ratio), thin_b = Thin(b, radii, ratio);
-    while (static_cast<double>(thin_a.chords()) * static_cast<double>(thin_b.chords()) >
-           kMostCells) {
-      ratio *= 4.0;
-      thin_a = Thin(thin_a, radii, ratio);
-      thin_b = Thin(thin_b, radii, ratio);
+namespace {
+
+/// Two runs, thinned as far as the radii at which they are held together ask for.
+class Thinned {
+ public:
+  Thinned(const Run& a, const Run& b) : a_(a), b_(b) {}
+
+  bool Fit(const Radii& radii) {
+    for (double ratio = kThin; ratio < 1.0; ratio *= 2.0) {
+      const Walk walk = WalkTogether(a_, b_, radii, kMostCells);
+      if (!walk.cut) return walk.complete;
+      a_ = Thin(a_, radii, ratio);
+      b_ = Thin(b_, radii, ratio);
     }
-    return Apart(thin_a, thin_b, radii);
+    return WalkTogether(a_, b_, radii).complete;
   }
+
+ private:
+  Run a_, b_;
+};
+
+}  // namespace
+
+Distance Apart(const Run& a, const Run& b, const Radii& radii) {
   const Distance first = Between(a.vertices.front(), b.vertices.front());
   const Distance last = Between(a.vertices.back(), b.vertices.back());
-  const auto fits = [&](double position, double axis) {
-    return WalkTogether(a, b, {position, axis}).complete;
-  };
-  constexpr double kSlack = 1e-6;  // of the ends themselves
-  const double least = std::max({first.position, last.position, 0.01 * radii.position});
-  const double position =
-      LeastFactor(least * (1.0 + kSlack), [&](double r) { return fits(r, kInfinite); });
+  constexpr double kSlack = 1.0 + 1e-6;  // of the ends themselves
+  Thinned tips(a, b), axes(a, b);
+  const double position = LeastFactor(
+      kSlack * std::max({first.position, last.position, 0.01 * radii.position}), [&](double r) {
+        return tips.Fit({r, kInfinite});
+      });
   const double near = std::max(position * (1.0 + kRelative), radii.position);
   const double axis =
-      LeastFactor(std::max({first.axis, last.axis, 0.01 * radii.axis}) * (1.0 + kSlack),
-                  [&](double r) { return fits(near, r); });
+      LeastFactor(kSlack * std::max({first.axis, last.axis, 0.01 * radii.axis}), [&](double r) {
+        return axes.Fit({near, r});
+      });
   return {position, axis};
 }
 

@@ -106,8 +106,9 @@ struct Command {
   // What the contour stage acts on.
   enum class Comp : std::uint8_t { kOff, kLeft, kRight } comp = Comp::kOff;  ///< G40 / G41 / G42.
   double comp_radius = 0.0;                                                  ///< mm, signed.
-  double corner_radius = 0.0;                                                ///< ,R
-  double corner_chamfer = 0.0;                                               ///< ,C
+  double corner_radius = 0.0;                                                ///< ,R; RND=
+  double corner_chamfer = 0.0;                                               ///< ,C; CHR=
+  double corner_chamfer_length = 0.0;  ///< CHF=: of the chamfer itself.
 };
 
 }  // namespace ncsim::control

@@ -3,25 +3,26 @@
 
 #include <utility>
 
-#include "sim/control/corner.h"
 #include "sim/control/cutter_comp.h"
 
 namespace ncsim::control {
 
 struct Contour::State {
-  State(const ContourOptions& options, Out sink, const Report& report)
+  State(const ContourOptions& options, Out sink, const Report& report, const Report& corner_report)
       : out(std::move(sink)),
         comp(
             options, [this](const Command& c) { out(c); }, report),
-        corners([this](const Command& c) { comp.Push(c); }, report) {}
+        corners([this](const Command& c) { comp.Push(c); }, corner_report ? corner_report : report,
+                options.corner_names) {}
 
   Out out;
   CutterComp comp;
   CornerStage corners;
 };
 
-Contour::Contour(const ContourOptions& options, Out out, const Report& report)
-    : state_(std::make_unique<State>(options, std::move(out), report)) {}
+Contour::Contour(const ContourOptions& options, Out out, const Report& report,
+                 const Report& corner_report)
+    : state_(std::make_unique<State>(options, std::move(out), report, corner_report)) {}
 
 Contour::~Contour() = default;
 

@@ -9,6 +9,7 @@
 
 #include "sim/base/finding.h"
 #include "sim/control/command.h"
+#include "sim/control/corner.h"
 
 namespace ncsim::control {
 
@@ -17,13 +18,16 @@ struct ContourOptions {
   bool fanuc_corners = true;  ///< Setting 58: FANUC (true) or YASNAC.
   double least_arc_feed =
       1.0;  ///< Setting 44 / 100: how far the feed falls in a compensated inside arc.
+  CornerNames corner_names;
 };
 
 class Contour {
  public:
   using Out = std::function<void(const Command&)>;
   using Report = std::function<void(Finding)>;
-  Contour(const ContourOptions& options, Out out, const Report& report);
+  /// `corner_report`: what cannot be cut at a corner; empty: as `report`.
+  Contour(const ContourOptions& options, Out out, const Report& report,
+          const Report& corner_report = {});
   ~Contour();
 
   /// `start` is the program position before the first command; later ones are chained, except after

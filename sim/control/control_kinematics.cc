@@ -81,4 +81,17 @@ ControlKinematics MakeControlKinematics(const machine::Machine& machine,
   return result;
 }
 
+kinematics::RotaryLimits RotaryLimitsOf(const machine::Machine& machine,
+                                        const kinematics::FiveAxis& five_axis) {
+  kinematics::RotaryLimits limits;
+  for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
+    for (const machine::Axis& axis : machine.axes) {
+      if (axis.joint != five_axis.rotary()[i]) continue;
+      limits.lower.at(i) = axis.lower;
+      limits.upper.at(i) = axis.upper;
+    }
+  }
+  return limits;
+}
+
 }  // namespace ncsim::control

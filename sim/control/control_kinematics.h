@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kinematics/five_axis.h"
+#include "kinematics/reachable.h"
 #include "sim/machine/machine.h"
 
 namespace ncsim::control {
@@ -19,5 +20,9 @@ struct ControlKinematics {
 /// `stated_centre`: what the control's settings say (machine values, mm); absent = as the model.
 ControlKinematics MakeControlKinematics(const machine::Machine& machine,
                                         const std::optional<Eigen::Vector3d>& stated_centre);
+
+/// Where the machine's limits let the rotary axes stand.
+kinematics::RotaryLimits RotaryLimitsOf(const machine::Machine& machine,
+                                        const kinematics::FiveAxis& five_axis);
 
 }  // namespace ncsim::control

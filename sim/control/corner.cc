@@ -17,7 +17,8 @@ constexpr double kNoLength = 1e-9;
 constexpr double kNoTurn = 1e-9;
 
 bool HasCorner(const Command& command) {
-  return command.corner_radius != 0.0 || command.corner_chamfer != 0.0;
+  return command.corner_radius != 0.0 || command.corner_chamfer != 0.0 ||
+         command.corner_chamfer_length != 0.0;
 }
 
 Eigen::Vector2d InPlane(const AxisValues& point, const PlaneAxes& axes) {
@@ -38,6 +39,13 @@ bool SameOutside(const AxisValues& a, const AxisValues& b, const PlaneAxes& axes
   return true;
 }
 
+/// Radius, or the way of the chamfer on each line.
+double SizeOf(const Command& command, double turn) {
+  if (command.corner_radius != 0.0) return command.corner_radius;
+  if (command.corner_chamfer != 0.0) return command.corner_chamfer;
+  return command.corner_chamfer_length / (2.0 * std::cos(0.5 * turn));
+}
+
 // In inverse time a piece of length `part` keeps the speed that the block of length `whole` has.
 void KeepSpeed(double whole, double part, Command* command) {
   if (command->feed_mode == Command::FeedMode::kInverseTime && part > kNoLength) {
@@ -47,8 +55,8 @@ void KeepSpeed(double whole, double part, Command* command) {
 
 }  // namespace
 
-CornerStage::CornerStage(Out out, Report report)
-    : out_(std::move(out)), report_(std::move(report)) {}
+CornerStage::CornerStage(Out out, Report report, const CornerNames& names)
+    : names_(names), out_(std::move(out)), report_(std::move(report)) {}
 
 void CornerStage::Push(const Command& command) {
   if (!first_) {
@@ -99,7 +107,7 @@ void CornerStage::Hold(const Command& command) {
 
 void CornerStage::Send() {
   Command first = *first_;
-  first.corner_radius = first.corner_chamfer = 0.0;
+  first.corner_radius = first.corner_chamfer = first.corner_chamfer_length = 0.0;
   first_.reset();
   out_(first);
   for (const Command& dwell : dwells_) out_(dwell);
@@ -107,11 +115,15 @@ void CornerStage::Send() {
 }
 
 bool CornerStage::Alarm(const std::string& why) {
-  const bool round = first_->corner_radius != 0.0;
-  report_(MakeFinding(Rule::kControlAlarm, first_->where,
-                      (round ? "corner rounding ,R" + Short(first_->corner_radius)
-                             : "chamfer ,C" + Short(first_->corner_chamfer)) +
-                          " mm " + why));
+  std::string name = "corner rounding ";
+  if (first_->corner_radius != 0.0) {
+    name += std::string(names_.round) + Short(first_->corner_radius);
+  } else if (first_->corner_chamfer != 0.0) {
+    name = "chamfer " + std::string(names_.chamfer) + Short(first_->corner_chamfer);
+  } else {
+    name = "chamfer " + std::string(names_.chamfer_length) + Short(first_->corner_chamfer_length);
+  }
+  report_(MakeFinding(Rule::kControlAlarm, first_->where, name + " mm " + why));
   return false;
 }
 
@@ -121,9 +133,9 @@ bool CornerStage::Insert(Command* second) {
   const Command& first = *first_;
   const PlaneAxes axes = AxesOf(first.plane);
   if (second->kind != CommandKind::kFeed) return Alarm("is not followed by a linear move (G01)");
-  if (first.corner_radius != 0.0 && first.corner_chamfer != 0.0) {
-    return Alarm("stands beside ,C in one block");
-  }
+  const int corners = (first.corner_radius != 0.0) + (first.corner_chamfer != 0.0) +
+                      (first.corner_chamfer_length != 0.0);
+  if (corners > 1) return Alarm("stands beside " + std::string(names_.chamfer) + " in one block");
   const Eigen::Vector2d corner = InPlane(first.end, axes);
   const Eigen::Vector2d in = corner - InPlane(start_, axes);
   const Eigen::Vector2d out = InPlane(second->end, axes) - corner;
@@ -136,7 +148,7 @@ bool CornerStage::Insert(Command* second) {
   const Eigen::Vector2d v = out / out_length;
   const double turn = std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));  // Left positive.
   const bool round = first.corner_radius != 0.0;
-  const double size = round ? first.corner_radius : first.corner_chamfer;
+  const double size = SizeOf(first, turn);
   if (!(size > 0.0)) return Alarm("is not greater than 0");
   if (kPi - std::abs(turn) < kNoTurn) return Alarm("stands at a reversal of direction");
   const double setback = round ? size * std::tan(0.5 * std::abs(turn)) : size;
@@ -146,14 +158,15 @@ bool CornerStage::Insert(Command* second) {
   }
   if (std::abs(turn) < kNoTurn) return false;  // Nothing to cut on a straight line.
   if (!SameOutside(first.end, start_, axes) || !SameOutside(second->end, first.end, axes)) {
-    report_(
-        MakeFinding(Rule::kUnsupportedCode, first.where,
-                    "a corner with ,R or ,C between moves that leave the plane is taken in the "
-                    "plane at the corner's level; the manual does not say what the control does"));
+    report_(MakeFinding(
+        Rule::kUnsupportedCode, first.where,
+        "a corner with " + std::string(names_.round) + " or " + std::string(names_.chamfer) +
+            " between moves that leave the plane is taken in the "
+            "plane at the corner's level; the manual does not say what the control does"));
   }
 
   Command piece = first;
-  piece.corner_radius = piece.corner_chamfer = 0.0;
+  piece.corner_radius = piece.corner_chamfer = piece.corner_chamfer_length = 0.0;
   piece.named = static_cast<std::uint8_t>(1U << axes.first | 1U << axes.second);
   SetInPlane(corner + setback * v, axes, &piece.end);
   double piece_length = (setback * (v + u)).norm();

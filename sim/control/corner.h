@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ,R and ,C between two G01 blocks (Haas NGC Mill Operator's Manual 2017, G01 "Corner Rounding and
-// Chamfering").
+// Chamfering"); RND=, CHR= and CHF= of the SINUMERIK.
 #pragma once
 
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "sim/base/finding.h"
 #include "sim/control/command.h"
 
 namespace ncsim::control {
+
+/// How a control writes corners, for messages.
+struct CornerNames {
+  std::string_view round = ",R", chamfer = ",C", chamfer_length = "CHF=";
+};
 
 /// Commands in, commands out, in program coordinates: a G01 with ,R or ,C waits for the G01 that
 /// ends the corner (a dwell may stand between), is shortened, and an arc or a line is put in. What
@@ -19,7 +25,7 @@ class CornerStage {
  public:
   using Out = std::function<void(const Command&)>;
   using Report = std::function<void(Finding)>;
-  CornerStage(Out out, Report report);
+  CornerStage(Out out, Report report, const CornerNames& names = {});
 
   bool waiting() const { return first_.has_value(); }
   void SetPosition(const AxisValues& start) { position_ = start; }
@@ -32,6 +38,7 @@ class CornerStage {
   void Hold(const Command& command);
   void Send();
 
+  const CornerNames names_;
   Out out_;
   Report report_;
   AxisValues position_{};         ///< Programmed end of the last command.

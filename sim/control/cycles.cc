@@ -5,85 +5,18 @@
 #include <cmath>
 
 #include "sim/base/text.h"
-#include "sim/control/arc.h"
+#include "sim/control/hole_moves.h"
 
 namespace ncsim::control {
 namespace {
 
-using Out = std::function<void(const Command&)>;
+using Out = HoleMoves::Out;
 
 // Smaller pecks than this many a hole are a mistake of scale, and must not run for hours.
 constexpr double kMaxPecks = 100'000.0;
 constexpr double kNear = 1e-9;
 
 std::string Name(int code) { return "G" + std::to_string(code); }
-
-// Writes the moves of one hole. Levels are along the plane's normal axis.
-class Hole {
- public:
-  Hole(const Command& prototype, const AxisValues& position, const Out& out)
-      : move_(prototype),
-        axes_(AxesOf(prototype.plane)),
-        out_(out),
-        feed_(prototype.feed),
-        prototype_named_(prototype.named) {
-    move_.end = position;
-    move_.corner_radius = move_.corner_chamfer = 0.0;
-    move_.exact_stop = true;  // Every feed of a cycle ends in a reversal or a stop.
-  }
-
-  void RapidInPlane(const AxisValues& target) {
-    const std::size_t normal = static_cast<std::size_t>(axes_.normal);
-    std::uint8_t named = prototype_named_ & static_cast<std::uint8_t>(~(1U << axes_.normal));
-    for (std::size_t i = 0; i < kNumAxes; ++i) {
-      if (i != normal && target[i] != move_.end[i]) named |= static_cast<std::uint8_t>(1U << i);
-    }
-    if (named == 0) return;
-    const double level = move_.end[normal];
-    move_.end = target;
-    move_.end[normal] = level;
-    Send(CommandKind::kRapid, named);
-  }
-  void Shift(double first, double second) {
-    move_.end[static_cast<std::size_t>(axes_.first)] += first;
-    move_.end[static_cast<std::size_t>(axes_.second)] += second;
-    Send(CommandKind::kRapid, static_cast<std::uint8_t>((first != 0.0 ? 1U << axes_.first : 0U) |
-                                                        (second != 0.0 ? 1U << axes_.second : 0U)));
-  }
-  void RapidTo(double level) { Level(CommandKind::kRapid, level, feed_); }
-  void FeedTo(double level, double factor = 1.0) {
-    Level(CommandKind::kFeed, level, feed_ * factor);
-  }
-  void Dwell(double seconds) {
-    if (seconds <= 0.0) return;
-    move_.dwell = seconds;
-    Send(CommandKind::kDwell, 0);
-    move_.dwell = 0.0;
-  }
-  void SetSpindle(bool on) { move_.spindle_on = on; }
-  double level() const { return move_.end[static_cast<std::size_t>(axes_.normal)]; }
-  const AxisValues& position() const { return move_.end; }
-
- private:
-  void Level(CommandKind kind, double level, double feed) {
-    double& value = move_.end[static_cast<std::size_t>(axes_.normal)];
-    if (std::abs(value - level) < kNear) return;
-    value = level;
-    move_.feed = feed;
-    Send(kind, static_cast<std::uint8_t>(1U << axes_.normal));
-  }
-  void Send(CommandKind kind, std::uint8_t named) {
-    move_.kind = kind;
-    move_.named = named;
-    out_(move_);
-  }
-
-  Command move_;
-  const PlaneAxes axes_;
-  const Out& out_;
-  const double feed_;
-  const std::uint8_t prototype_named_;
-};
 
 // Depths of the pecks of G73 and G83: equal by Q, falling from I by J to at least K, or one.
 class Pecks {
@@ -142,7 +75,7 @@ class Pecks {
 
 // G73: short retracts (setting 22); with K beside Q also a full one whenever the pecks since the
 // last come to K.
-bool ChipBreak(const CycleWords& words, const CycleSettings& settings, Hole* hole,
+bool ChipBreak(const CycleWords& words, const CycleSettings& settings, HoleMoves* hole,
                std::string* error) {
   std::optional<Pecks> pecks = Pecks::Make(words, error);
   if (!pecks) return false;
@@ -166,7 +99,7 @@ bool ChipBreak(const CycleWords& words, const CycleSettings& settings, Hole* hol
 }
 
 // G83: full retracts to R (plus setting 52), then a rapid to setting 22 above the last depth.
-bool DeepHole(const CycleWords& words, const CycleSettings& settings, Hole* hole,
+bool DeepHole(const CycleWords& words, const CycleSettings& settings, HoleMoves* hole,
               std::string* error) {
   std::optional<Pecks> pecks = Pecks::Make(words, error);
   if (!pecks) return false;
@@ -193,7 +126,7 @@ ShiftVector BoringShift(const CycleWords& words, const CycleSettings& settings) 
   return settings.setting27 < 2 ? ShiftVector{q, 0.0} : ShiftVector{0.0, q};
 }
 
-void FineBore(const CycleWords& words, ShiftVector shift, double retract, Hole* hole,
+void FineBore(const CycleWords& words, ShiftVector shift, double retract, HoleMoves* hole,
               bool spindle) {
   hole->FeedTo(words.z);
   hole->Dwell(words.dwell);
@@ -206,7 +139,7 @@ void FineBore(const CycleWords& words, ShiftVector shift, double retract, Hole* 
 }
 
 // The tool passes the bore stopped and shifted, both ways; G98 is implied.
-void BackBore(const CycleWords& words, ShiftVector shift, double initial_level, Hole* hole,
+void BackBore(const CycleWords& words, ShiftVector shift, double initial_level, HoleMoves* hole,
               bool spindle) {
   const bool shifts = shift.first != 0.0 || shift.second != 0.0;
   hole->SetSpindle(false);
@@ -238,7 +171,7 @@ bool CheckLevels(const CycleWords& words, std::string* error) {
 
 // From R to the bottom, and out as far as `retract` where the cycle rapids out.
 bool Body(const CycleWords& words, const CycleSettings& settings, double initial_level,
-          double retract, bool spindle, Hole* hole, std::string* error) {
+          double retract, bool spindle, HoleMoves* hole, std::string* error) {
   switch (words.code) {
     case 73:
       if (!ChipBreak(words, settings, hole, error)) return false;
@@ -295,7 +228,7 @@ std::optional<AxisValues> ExpandCycle(const CycleWords& words, const CycleSettin
                                       std::string* error) {
   if (!CheckLevels(words, error)) return std::nullopt;
   if ((words.code == 73 || words.code == 83) && !Pecks::Make(words, error)) return std::nullopt;
-  Hole moves(prototype, position, out);
+  HoleMoves moves(prototype, position, out);
   moves.RapidInPlane(hole);
   const bool back_bore = words.code == 77;
   if (!back_bore) moves.RapidTo(words.r);

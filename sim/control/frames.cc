@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/frames.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 
@@ -145,6 +146,50 @@ AxisValues Frames::ToProgram(const std::shared_ptr<const Frame>& frame, const Ax
     if (frame->rotation == Frame::Rotation::kTcp) return program;
   }
   return RemoveProgramFrame(frame->program, program);
+}
+
+ProgramFrame Frames::OnTable(const AxisValues& offset, const AxisValues& machine) const {
+  const auto turned = [&](const Eigen::Vector3d& q) {
+    AxisValues at{};
+    SetLinear(Linear(offset) + q, &at);
+    Eigen::Vector3d p_BT_B, u_B;
+    kinematics_.five_axis->TipInTable(axes_.Joints(at), 0.0, &p_BT_B, &u_B);
+    JointVector joints = axes_.Joints(machine);
+    kinematics_.five_axis->SolveLinear(p_BT_B, 0.0, &joints);
+    return Linear(axes_.Values(joints));
+  };
+  ProgramFrame frame;
+  const Eigen::Vector3d origin = turned(Eigen::Vector3d::Zero());
+  frame.active = true;
+  frame.to = origin - Linear(offset);
+  for (int i = 0; i < 3; ++i) frame.linear.col(i) = turned(Eigen::Vector3d::Unit(i)) - origin;
+  // Differences of places far out: a rotation is made one to the last digit, so that arcs stay
+  // such.
+  constexpr double kRounding = 1e-10;
+  const Eigen::Matrix3d square = frame.linear.transpose() * frame.linear;
+  if ((square - Eigen::Matrix3d::Identity()).norm() <= kRounding) {
+    frame.linear = Eigen::Quaterniond(frame.linear).normalized().toRotationMatrix();
+  }
+  return frame;
+}
+
+Eigen::Vector3d Frames::DirectionInTable(const Eigen::Vector3d& direction) const {
+  AxisValues at{};
+  Eigen::Vector3d from, to, u_B;
+  kinematics_.five_axis->TipInTable(axes_.Joints(at), 0.0, &from, &u_B);
+  SetLinear(direction, &at);
+  kinematics_.five_axis->TipInTable(axes_.Joints(at), 0.0, &to, &u_B);
+  return to - from;
+}
+
+bool Frames::tool_is_upright() const {
+  constexpr double kTurn = 0.5, kNear = 1e-9;  // rad; of any size but a half turn
+  const AxisValues turned = {0.0, 0.0, 0.0, kTurn, kTurn, kTurn};
+  JointVector joints = axes_.Joints(turned);
+  Eigen::Vector3d p_BT_B, u_B;
+  kinematics_.five_axis->TipInTable(joints, 0.0, &p_BT_B, &u_B);
+  kinematics_.five_axis->SolveLinear(p_BT_B + u_B, 0.0, &joints);
+  return (Linear(axes_.Values(joints)) - Eigen::Vector3d::UnitZ()).norm() <= kNear;
 }
 
 Eigen::Vector3d Frames::VectorToMachine(const Frame& frame, const Eigen::Vector3d& v) {

@@ -65,6 +65,14 @@ class Frames {
   /// pass through.
   AxisValues ToMachine(const std::shared_ptr<const Frame>& frame, const AxisValues& program);
   AxisValues ToProgram(const std::shared_ptr<const Frame>& frame, const AxisValues& machine);
+  /// How the coordinates of a work offset (measured with the rotary axes at 0) lie in machine
+  /// directions, from the offset's machine values on, while the rotary axes stand as in `machine`:
+  /// the part has gone with its table. Needs can_rotate().
+  ProgramFrame OnTable(const AxisValues& offset, const AxisValues& machine) const;
+  /// A direction in machine axes, rotary axes at 0, as one in the table; unit where it is.
+  Eigen::Vector3d DirectionInTable(const Eigen::Vector3d& direction) const;
+  /// No rotary axis turns the tool: only tables. Needs can_rotate().
+  bool tool_is_upright() const;
   /// A direction or a position relative to another, X, Y, Z, from program to machine directions.
   /// Not for TCP.
   static Eigen::Vector3d VectorToMachine(const Frame& frame, const Eigen::Vector3d& v);

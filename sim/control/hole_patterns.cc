@@ -5,7 +5,7 @@
 
 #include "sim/base/text.h"
 #include "sim/base/units.h"
-#include "sim/control/arc.h"
+#include "sim/control/hole_moves.h"
 
 namespace ncsim::control {
 
@@ -27,20 +27,9 @@ std::optional<std::vector<AxisValues>> HolePattern(const PatternWords& words, Pl
     return std::nullopt;
   }
   const int count = static_cast<int>(words.count);
-  const PlaneAxes axes = AxesOf(plane);
+  if (words.code == 72) return HolesOnLine(at, plane, words.distance, words.angle, count);
   const double step = words.code == 70 ? 2.0 * kPi / count : words.spacing.value_or(0.0);
-  std::vector<AxisValues> holes;
-  holes.reserve(static_cast<std::size_t>(count));
-  for (int n = 0; n < count; ++n) {
-    const bool line = words.code == 72;
-    const double angle = line ? words.angle : words.angle + n * step;
-    const double distance = line ? n * words.distance : words.distance;
-    AxisValues hole = at;
-    hole[static_cast<std::size_t>(axes.first)] += distance * std::cos(angle);
-    hole[static_cast<std::size_t>(axes.second)] += distance * std::sin(angle);
-    holes.push_back(hole);
-  }
-  return holes;
+  return HolesOnArc(at, plane, words.distance, words.angle, step, count);
 }
 
 }  // namespace ncsim::control

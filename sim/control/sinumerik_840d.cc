@@ -57,6 +57,16 @@ void RunDataFiles(const machine::Job& job, Sinumerik840dSystem* system, SourceFi
   }
 }
 
+/// MCALL behind the motion of a block, and behind each position of a pattern of holes.
+void CallModally(SinumerikFlow* flow, SinumerikInterpreter* interpreter, const RunLog& log) {
+  do {
+    if (log.stopped() || !interpreter->moved()) continue;
+    const SinumerikModalCall* call = flow->PathMotionDone();
+    if (call != nullptr) interpreter->ExecuteCycle(*call->command, call->arguments, call->where);
+    // A subprogram of the user's runs block by block; its end leads to the next position.
+  } while (!flow->busy() && interpreter->NextPosition());
+}
+
 }  // namespace
 
 RunSummary RunSinumerik840d(std::shared_ptr<const nc::Program> program,
@@ -90,11 +100,10 @@ RunSummary RunSinumerik840d(std::shared_ptr<const nc::Program> program,
     if (event == SinumerikEvent::kEnd || event == SinumerikEvent::kStopped) break;
     if (event == SinumerikEvent::kSave) interpreter.Save();
     if (event == SinumerikEvent::kRestore) interpreter.Restore();
-    if (event != SinumerikEvent::kStep) continue;
-    interpreter.Execute(&step);
-    if (log.stopped() || !interpreter.moved()) continue;
-    const SinumerikModalCall* call = flow.PathMotionDone();
-    if (call != nullptr) interpreter.ExecuteCycle(*call->command, call->arguments, call->where);
+    if (event == SinumerikEvent::kStep) interpreter.Execute(&step);
+    if (event == SinumerikEvent::kModalEnd && !interpreter.NextPosition()) continue;
+    if (event != SinumerikEvent::kStep && event != SinumerikEvent::kModalEnd) continue;
+    CallModally(&flow, &interpreter, log);
   }
   interpreter.Finish();
   log.Finish();

@@ -89,7 +89,9 @@ void SinumerikFlow::State::Return() {
     return;
   }
   if (current.kind == LevelKind::kSubprogram) variables.PopLevel();
+  const bool was_modal = current.modal;
   levels.pop_back();
+  if (was_modal && !level().modal) events.push_back(SinumerikEvent::kModalEnd);
 }
 
 /// A text may end without M17 or M30.

@@ -59,6 +59,11 @@ SinumerikEvent SinumerikFlow::Next(SinumerikStep* step) {
 
 const SinumerikModalCall* SinumerikFlow::PathMotionDone() { return state_->PathMotionDone(); }
 
+bool SinumerikFlow::busy() const {
+  const bool calls = state_->pending.action == State::Action::kCall && state_->pending.callee.modal;
+  return calls || state_->stopped || state_->levels.back().modal;
+}
+
 std::uint64_t SinumerikFlow::blocks_executed() const { return state_->blocks; }
 
 bool SinumerikFlow::ReadVariable(std::string_view name, nc::SinumerikValue* value) {

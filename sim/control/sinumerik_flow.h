@@ -100,11 +100,12 @@ struct SinumerikFlowOptions {
 };
 
 enum class SinumerikEvent {
-  kStep,     ///< A block with something to execute.
-  kSave,     ///< A subprogram with SAVE begins: remember modal G codes and programmable frame.
-  kRestore,  ///< It ended.
-  kEnd,      ///< M30, M2, M17, or the end of the main program's text.
-  kStopped,  ///< An alarm has been reported as a finding; the program goes no further.
+  kStep,      ///< A block with something to execute.
+  kSave,      ///< A subprogram with SAVE begins: remember modal G codes and programmable frame.
+  kRestore,   ///< It ended.
+  kModalEnd,  ///< The subprogram that PathMotionDone() has called ended.
+  kEnd,       ///< M30, M2, M17, or the end of the main program's text.
+  kStopped,   ///< An alarm has been reported as a finding; the program goes no further.
 };
 
 /// Runs a program. Use: while ((event = Next(&step)) != kEnd and != kStopped) { ... }. Blocks that
@@ -127,6 +128,9 @@ class SinumerikFlow {
   /// Call after a block with path motion. A modal subprogram of the user's will be run next; a
   /// modal cycle of the control's is returned, to be executed now. Null: nothing (more) to do.
   const SinumerikModalCall* PathMotionDone();
+  /// The block's further motions wait for Next(): a modal subprogram is about to run, or runs, or
+  /// the program has stopped.
+  bool busy() const;
   std::uint64_t blocks_executed() const;  ///< Lines read.
   /// The value of a user variable or R parameter, for tests; false: not defined.
   bool ReadVariable(std::string_view name, nc::SinumerikValue* value);

@@ -44,6 +44,8 @@ void SinumerikInterpreter::CancelFrame(bool traori, const SourcePosition& where)
   if (!Is(kSinComp, "G40")) {
     Unsupported("TRAORI or TRAFOOF under G41 or G42", where);
   }
+  if (swivel_.active) Unsupported("TRAORI while CYCLE800 is active", where);
+  swivel_ = {};
   std::string cancelled;
   const bool plain = modal_.program.is_zero();
   if (modal_.offset != 0) cancelled = SinumerikRegisters::FrameName(modal_.offset);
@@ -75,8 +77,13 @@ Frame SinumerikInterpreter::MakeFrame() const {
   frame.offset_index =
       parts_.part_frames->Index(SinumerikRegisters::FrameName(modal_.offset), frame.offset);
   for (std::size_t i = 0; i < 3; ++i) frame.offset[kA + i] += program.rotary[i];
-  frame.program.linear = settable * program.linear;
-  frame.program.to = settable * program.shift;
+  frame.program.linear = settable * swivel_.plane.rotation * program.linear;
+  frame.program.to = settable * (swivel_.plane.origin + swivel_.plane.rotation * program.shift);
+  if (swivel_.active) {
+    const ProgramFrame turned = parts_.frames->OnTable(frame.offset, swivel_.tables);
+    frame.program.to = turned.to + turned.linear * frame.program.to;
+    frame.program.linear = turned.linear * frame.program.linear;
+  }
   frame.program.active = !IsIdentity(frame.program.linear) || !frame.program.to.isZero(0.0);
   frame.tool_length = active_.length;
   if (traori_) frame.rotation = Frame::Rotation::kTcp;
@@ -111,6 +118,9 @@ void SinumerikInterpreter::RefreshFrame() {
                        (new_length_ && !new_frame_ && settings_.incremental_tool);
   for (std::size_t axis = 0; axis < kNumAxes && carries; ++axis) {
     carry_[axis] += before[axis] - position_[axis];
+  }
+  if (swivel_.active && !IsIdentity(modal_.settable.Linear())) {
+    Unsupported("a turned work offset while CYCLE800 is active", step_->where);
   }
   if (frame_->offset_index >= kMaxPartFrames) {
     log_.Alarm(Rule::kUnsupportedCode, step_->where, "too many different work offsets in one run");

@@ -22,6 +22,7 @@ ContourOptions CompensationOptions() {
   ContourOptions options;
   options.type_b = false;         // NORM: straight to the point beside the contour's start.
   options.fanuc_corners = false;  // G450: an arc about an outside corner.
+  options.corner_names = {"RND=", "CHR=", "CHF="};
   return options;
 }
 
@@ -43,6 +44,11 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
             log_.ReportOnce("compensation", Rule::kUnsupportedCode, finding.where,
                             "G41 or G42 was not simulated here: " + finding.message);
             if (alarm) log_.Stop();
+          },
+          [this](const Finding& finding) {
+            // The control shortens a corner that does not fit, or leaves it out.
+            log_.ReportOnce("corner", Rule::kUnsupportedCode, finding.where,
+                            "RND, CHR or CHF was not simulated here: " + finding.message);
           }),
       tool_(start_tool) {
   for (const nc::SinumerikCommand& row : nc::Sinumerik840dGCodes()) {
@@ -228,6 +234,7 @@ void SinumerikInterpreter::UpdatePrototype() {
   command_.plane = plane_;
   command_.full_circle = false;
   command_.arc_normal.setZero();
+  command_.corner_radius = command_.corner_chamfer = command_.corner_chamfer_length = 0.0;
   const bool inverse = Is(kSinFeedMode, "G93");
   const bool revolution = Is(kSinFeedMode, "G95") || Is(kSinFeedMode, "G97");
   command_.feed_mode = inverse      ? Command::FeedMode::kInverseTime

@@ -22,9 +22,11 @@
 #include "sim/control/part_frames.h"
 #include "sim/control/run_log.h"
 #include "sim/control/sinumerik_arc.h"
+#include "sim/control/sinumerik_cycle_arguments.h"
 #include "sim/control/sinumerik_flow.h"
 #include "sim/control/sinumerik_registers.h"
 #include "sim/control/sinumerik_settings.h"
+#include "sim/control/sinumerik_swivel.h"
 #include "sim/control/to_motion.h"
 #include "sim/machine/machine.h"
 #include "sim/machine/tool.h"
@@ -72,9 +74,12 @@ class SinumerikInterpreter {
   void Execute(SinumerikStep* step);
   /// The block executed last moved the path: a modal call follows it.
   bool moved() const { return moved_; }
+  /// To the next position of a pattern of holes (HOLES1 ...) that the block has called, as a motion
+  /// that a modal call follows. False: there is none.
+  bool NextPosition();
   /// A cycle, called in a block or by MCALL behind one.
-  void ExecuteCycle(const nc::SinumerikCommand& cycle,
-                    std::span<const nc::SinumerikValue> arguments, SourcePosition where);
+  void ExecuteCycle(const nc::SinumerikCommand& cycle, std::span<const nc::SinumerikValue> values,
+                    SourcePosition where);
   /// A subprogram with SAVE begins, and ends: modal G codes and the programmable frame.
   void Save();
   void Restore();
@@ -110,6 +115,12 @@ class SinumerikInterpreter {
     SettableFrame settable;  ///< As it was when it was selected.
     Programmable program;
   };
+  /// What CYCLE800 has laid between work offset and programmable frame.
+  struct SwivelState {
+    bool active = false;
+    SwivelPlane plane;    ///< In the coordinates of the work offset, rotary axes at 0.
+    AxisValues tables{};  ///< Machine values of the rotary axes; the frame does not follow them.
+  };
   enum class MotionMode { kRapid, kLine, kClockwise, kCounterClockwise, kThroughPoint, kTangent };
 
   // sinumerik_interpreter.cc: blocks and modal state
@@ -131,7 +142,6 @@ class SinumerikInterpreter {
   bool Alarm(const SourcePosition& where, int number, std::string text);
   void Unsupported(std::string_view name, const SourcePosition& where, const std::string& why = "");
 
-  // sinumerik_frames.cc
   // sinumerik_frames.cc
   static int OffsetIndex(std::string_view name);  // -1: none
   void SelectOffset(int index);
@@ -158,7 +168,7 @@ class SinumerikInterpreter {
   // sinumerik_motion.cc
   void ExecuteAction(const SinumerikItem& item);
   void Dwell();
-  void ReferencePoint();
+  void MachinePoint(const SinumerikItem& item);
   void ExecuteMotion();
   bool TakeTargets(AxisValues* end, unsigned* named);
   bool LinearTarget(int axis, const SinumerikItem& item, double* value);
@@ -168,6 +178,7 @@ class SinumerikInterpreter {
   bool TakeArcWords(SinumerikArcWords* words);
   bool CheckFeed();
   void Move(const AxisValues& end, unsigned named);
+  bool TakeCorner();
   void MoveOnArc(const SinumerikArcWords& words);
   bool CheckArcFrame();
   void Push();
@@ -180,9 +191,29 @@ class SinumerikInterpreter {
   bool vector_path() const;
   std::string_view WrapNote() const;
 
+  // sinumerik_cycle800.cc
+  std::string CannotSwivel(const SinumerikCycleArguments& arguments) const;
+  void Swivel(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  bool SolveSwivel(const SinumerikCycleArguments& arguments, const SwivelPlane& from,
+                   const SourcePosition& where, SwivelPlane* plane, JointVector* joints);
+  std::optional<kinematics::RotarySolution> StandingSwivel(
+      const std::vector<kinematics::RotarySolution>& solutions, const std::array<double, 2>& here,
+      const SourcePosition& where);
+  std::optional<kinematics::RotarySolution> TurnedSwivel(
+      std::vector<kinematics::RotarySolution> solutions, const std::array<double, 2>& here,
+      const SwivelPlane& plane, long direction, const SourcePosition& where);
+  std::optional<kinematics::RotarySolution> PoleSwivel(kinematics::RotarySolution solution,
+                                                       const std::array<double, 2>& here,
+                                                       const SwivelPlane& plane, long direction,
+                                                       const SourcePosition& where);
+  bool RetractToSwivel(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  void TurnTables(const AxisValues& target, bool tracks);
+
   // sinumerik_cycles.cc
-  void HighSpeedSettings(std::span<const nc::SinumerikValue> arguments,
-                         const SourcePosition& where);
+  void HighSpeedSettings(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  std::string CannotDrill() const;
+  void Drill(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  void MakePattern(const SinumerikCycleArguments& arguments, const SourcePosition& where);
 
   Parts parts_;
   const SinumerikSettings& settings_;
@@ -199,6 +230,7 @@ class SinumerikInterpreter {
 
   Modal modal_;
   std::vector<Modal> saved_;
+  SwivelState swivel_;
   MotionMode motion_ = MotionMode::kLine;
   Plane plane_ = Plane::kXY;
   bool incremental_ = false;
@@ -223,6 +255,9 @@ class SinumerikInterpreter {
   EdgeData active_;
   double contour_tolerance_ = 0.0, orientation_tolerance_ = 0.0;  ///< CYCLE832. mm, rad.
   std::optional<double> ctol_, otol_, adis_;
+  std::vector<AxisValues> holes_;  ///< Of a pattern, still to be gone to; the next one last.
+  SourcePosition holes_where_;
+  int cycle_count_ = 0;
   bool offset_checked_ = false, length_checked_ = false, no_tool_reported_ = false;
 };
 

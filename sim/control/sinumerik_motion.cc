@@ -27,7 +27,7 @@ constexpr std::string_view kLetters = "XYZABC";
 
 /// G4 and what approaches a point of the machine: alone in the block.
 void SinumerikInterpreter::ExecuteAction(const SinumerikItem& item) {
-  item.command->name == "G4" ? Dwell() : ReferencePoint();
+  item.command->name == "G4" ? Dwell() : MachinePoint(item);
 }
 
 void SinumerikInterpreter::Dwell() {
@@ -46,25 +46,42 @@ void SinumerikInterpreter::Dwell() {
   contour_.Push(command_);
 }
 
-/// G74 X=0 Y=0: to the reference point of each axis that is named.
-void SinumerikInterpreter::ReferencePoint() {
+/// G74 X=0 Y=0: to the reference point of each axis that is named; G75 FP=1 X=0 Y=0 to a fixed
+/// point (MD30600).
+void SinumerikInterpreter::MachinePoint(const SinumerikItem& item) {
+  const std::string name(item.command->name);
   if (traori_) {
-    Alarm(step_->where, 16918, "G74 for axes of an active transformation");
+    Alarm(step_->where, 16918, name + " for axes of an active transformation");
     return;
   }
+  const bool fixed = name == "G75";
+  double point = 1.0;
+  if (fixed && Peek("FP") != nullptr) {
+    const SinumerikItem* number = Take("FP");
+    if (number == nullptr) return;
+    point = number->value;
+  }
+  if (!(point >= 1.0 && point <= kNumFixedPoints) || point != std::floor(point)) {
+    Alarm(step_->where, 12160, "FP=" + Short(point) + " is no fixed point");
+    return;
+  }
+  const auto& fixed_point = settings_.fixed_points[static_cast<std::size_t>(point) - 1];
   AxisValues target{};
   unsigned named = 0;
   for (int axis = kX; axis < kNumAxes; ++axis) {
     const std::size_t i = static_cast<std::size_t>(axis);
     const std::string machine_axis = {kLetters[i], '1'};
-    for (const std::string& name : {std::string(1, kLetters[i]), machine_axis}) {
-      if (!axes_.has(axis) || Peek(name) == nullptr) continue;
-      if (Take(name) == nullptr) return;
+    for (const std::string& word : {std::string(1, kLetters[i]), machine_axis}) {
+      if (!axes_.has(axis) || Peek(word) == nullptr) continue;
+      if (Take(word) == nullptr) return;
+      if (fixed && !fixed_point[i]) {
+        return Unsupported("G75 without MD30600 of " + word.substr(0, 1), step_->where);
+      }
       named |= 1U << axis;
-      target[i] = axes_.data(axis).home;
+      target[i] = fixed ? *fixed_point[i] : axes_.data(axis).home;
     }
   }
-  log_.Assume("reference point", "G74 goes to the model's home position", false);
+  if (!fixed) log_.Assume("reference point", "G74 goes to the model's home position", false);
   PushMachine(CommandKind::kMachineRapid, named, target);
 }
 
@@ -83,6 +100,10 @@ void SinumerikInterpreter::ExecuteMotion() {
   const bool suppressed = suppress_ != nullptr;
   if (suppressed) {
     if (!Is(kSinComp, "G40")) Unsupported(suppress_->name, step_->where, "with G41 or G42 active");
+    if (swivel_.active && suppress_->name == "G53") {
+      Unsupported("G53 while CYCLE800 is active", step_->where,
+                  "it leaves the rotation of the tables (PAROT) in force");
+    }
     UseFrame(SuppressedFrame());
     command_.frame = frame_;
   }
@@ -278,10 +299,23 @@ void SinumerikInterpreter::Move(const AxisValues& end, unsigned named) {
   command_.kind = motion_ == MotionMode::kRapid ? CommandKind::kRapid : CommandKind::kFeed;
   command_.end = end;
   command_.named = static_cast<std::uint8_t>(named);
+  if (motion_ == MotionMode::kLine && !TakeCorner()) return;
   const Eigen::Vector3d way(end[kX] - position_[kX], end[kY] - position_[kY],
                             end[kZ] - position_[kZ]);
   Push();
   if (!way.isZero(0.0)) tangent_ = way;
+}
+
+/// What is inserted between this line and the next one.
+bool SinumerikInterpreter::TakeCorner() {
+  const auto length = [&](std::string_view name, double* value) {
+    if (Peek(name) == nullptr) return;
+    if (const SinumerikItem* item = Take(name)) *value = std::max(0.0, item->value * mm_);
+  };
+  length("RND", &command_.corner_radius);
+  length("CHR", &command_.corner_chamfer);
+  length("CHF", &command_.corner_chamfer_length);
+  return !log_.stopped();
 }
 
 /// TURN= makes that many circles before, the other axes in proportion.

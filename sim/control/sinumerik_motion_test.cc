@@ -57,6 +57,51 @@ TEST(SinumerikMotion, AcAndIcOverrideTheModalDimension) {
   EXPECT_EQ(EndOf(run, 4), "X17 Y26 Z-100 B0 C0");
 }
 
+TEST(SinumerikMotion, CornersAreRoundedAndChamfered) {
+  // NC programming 12/2019, "Chamfer, rounding": CHR is the way on each line, CHF the chamfer
+  // itself.
+  const auto ways = [](const std::string& corner, const std::string& to = "Y10") {
+    const TestRun run =
+        SinumerikTest().Run(Head("G1 F500 X10 " + corner + "\n" + to + "\nX0\nG0 Z100\n"));
+    std::string text;
+    for (const motion::Motion& motion : run.motions) {
+      if (motion.where.line < 3 || motion.where.line > 4) continue;
+      text += Short(motion.q1()[kJointX] - 10.0) + "," + Short(motion.q1()[kJointY] - 20.0) + " ";
+    }
+    const Finding* finding = run.Find(Rule::kUnsupportedCode);
+    return text + (finding == nullptr ? "" : finding->message);
+  };
+  EXPECT_EQ(ways("RND=2"), "8,0 10,2 10,10 ");
+  EXPECT_EQ(ways("CHR=2"), "8,0 10,2 10,10 ");
+  EXPECT_EQ(ways("CHF=SQRT(8)"), "8,0 10,2 10,10 ");
+  // At 60 deg of turn a chamfer of 3 sqrt(3) lies 3 from the corner.
+  EXPECT_EQ(ways("CHF=3*SQRT(3)", "X=10+10*COS(60) Y=10*SIN(60)"), "7,0 11.5,2.5981 15,8.6603 ");
+  EXPECT_EQ(ways("RND=0"), "10,0 10,10 ");
+  EXPECT_EQ(
+      ways("RND=11"),
+      "10,0 10,10 RND, CHR or CHF was not simulated here: corner rounding RND=11 mm needs 11 mm "
+      "of moves that are 10 and 10 mm long");
+  EXPECT_EQ(
+      ways("CHF=1", "G2 Y10 CR=6"),
+      "10,0 10,10 RND, CHR or CHF was not simulated here: chamfer CHF=1 mm is not followed by a "
+      "linear move (G01)");
+  EXPECT_EQ(ways("RNDM=1").substr(0, 30), "10,0 10,10 RNDM was not simula");
+}
+
+TEST(SinumerikMotion, FixedPointsAreMachineData) {
+  SinumerikTest control;
+  control.job.control["MD30600[0,Z]"] = "-5";
+  control.job.control["MD30600[1,Z]"] = "-7";
+  control.job.control["MD30600[1,B]"] = "30";
+  EXPECT_EQ(EndOf(control.Run(Head("G75 Z1=0\n")), 3), "X10 Y20 Z-5 B0 C0");
+  EXPECT_EQ(EndOf(control.Run(Head("G75 FP=2 Z=0 B=0\n")), 3), "X10 Y20 Z-7 B30 C0");
+  const TestRun run = control.Run(Head("G75 X=0\n"));
+  ASSERT_TRUE(run.Has(Rule::kUnsupportedCode));
+  EXPECT_EQ(run.Find(Rule::kUnsupportedCode)->message,
+            "G75 without MD30600 of X was not simulated");
+  EXPECT_TRUE(control.Run(Head("G75 FP=5 Z=0\n")).Has(Rule::kControlAlarm));
+}
+
 TEST(SinumerikMotion, ModuloAxisStaysWithinItsTurnOrGoesTheShortestWay) {
   // MD30455 bit 2; manual, "Absolute dimensions for rotary axes (DC, ACP, ACN)".
   SinumerikTest control;

@@ -22,19 +22,6 @@ constexpr std::string_view kWrapNote =
     "MD21104 "
     "= 0 with ORIWKS interpolates the tool vector, and the axis goes on past 360 deg";
 
-kinematics::RotaryLimits LimitsOf(const machine::Machine& machine,
-                                  const kinematics::FiveAxis& five_axis) {
-  kinematics::RotaryLimits limits;
-  for (std::size_t i = 0; i < five_axis.rotary().size(); ++i) {
-    for (const machine::Axis& axis : machine.axes) {
-      if (axis.joint != five_axis.rotary()[i]) continue;
-      limits.lower.at(i) = axis.lower;
-      limits.upper.at(i) = axis.upper;
-    }
-  }
-  return limits;
-}
-
 }  // namespace
 
 /// MD21104 = 1: group 51 decides; else ORIWKS goes along the vector, ORIMKS by the axes.
@@ -106,7 +93,7 @@ bool SinumerikInterpreter::Reach(const Eigen::Vector3d& axis, AxisValues* end, u
   const std::vector<int>& rotary = five_axis.rotary();
   for (std::size_t i = 0; i < rotary.size(); ++i) from.at(i) = q[rotary[i]];
   const auto solutions =
-      kinematics::ReachableRotary(five_axis, u_B, from, LimitsOf(*parts_.machine, five_axis));
+      kinematics::ReachableRotary(five_axis, u_B, from, RotaryLimitsOf(*parts_.machine, five_axis));
   if (solutions.empty()) {
     return five_axis.SolveRotary(u_B).empty()
                ? Alarm(step_->where, 14112, "the machine cannot tilt the tool to this orientation")

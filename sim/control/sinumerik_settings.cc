@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "sim/base/units.h"
+
 namespace ncsim::control {
 namespace {
 
@@ -45,6 +47,16 @@ void ReadRotary(const SettingSource& source, SinumerikSettings* settings) {
   }
 }
 
+void ReadFixedPoints(const SettingSource& source, SinumerikSettings* settings) {
+  for (std::size_t point = 0; point < kNumFixedPoints; ++point) {
+    for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
+      const std::string name = "MD30600[" + std::to_string(point) + "," + "XYZABC"[axis] + "]";
+      const auto value = source.Number(name);
+      if (value) settings->fixed_points[point][axis] = axis < kA ? *value : Radians(*value);
+    }
+  }
+}
+
 }  // namespace
 
 SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
@@ -61,6 +73,7 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
     if (code) settings.start_codes[group] = *code;
   }
   ReadRotary(source, &settings);
+  ReadFixedPoints(source, &settings);
   const int frame_mode = Whole(source, "MD10602", 0);
   settings.rpy = Whole(source, "MD10600", 1) == 1;
   settings.frame_keeps_translations = frame_mode == 1;
@@ -75,6 +88,13 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.m6_changes = Whole(source, "MD22550", 1) == 1;
   settings.incremental_frame = Whole(source, "SD42440", 1) == 1;
   settings.incremental_tool = Whole(source, "SD42442", 1) == 1;
+  if (const auto mask = source.Number("SD55221")) {
+    settings.swivel_mask = static_cast<unsigned>(std::lround(*mask));
+  }
+  settings.swivel_reference = Whole(source, "swivel_reference", 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    settings.swivel_retract[i] = source.Number("TC_CARR" + std::to_string(38 + i));
+  }
   settings.optional_stop = source.Switch("optional_stop").value_or(false);
   if (source.Switch("block_skip").value_or(false)) settings.skip_levels |= 1U;
   for (unsigned level = 1; level <= 9; ++level) {

@@ -129,7 +129,7 @@ TEST(SinumerikTraori, Cycle832SetsTolerancesUntilItIsSwitchedOff) {
 
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
   for (const std::string block : {"CYCLE61(1,2)", "G33 Z1 K1", "LEAD=5", "M77", "POS[X]=1",
-                                  "G75 FP=1 X0", "TRACYL(40)", "RND=2 X1", "H5", "TOROT"}) {
+                                  "G58 X1", "TRACYL(40)", "RNDM=2 X1", "H5", "TOROT"}) {
     const TestRun run = SinumerikTest().Run(std::string(kStart) + "G1 F500 X1\n" + block + "\n");
     EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << block << run.Text();
   }

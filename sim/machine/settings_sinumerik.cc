@@ -65,11 +65,22 @@ std::vector<Setting> SinumerikSettings() {
     add("MD30330" + index, SettingKind::kAngle);  // MODULO_RANGE
     whole("MD30455" + index, 0, kMask);           // MISC_FUNCTION_MASK
   }
+  for (const char point : {'0', '1', '2', '3'}) {  // FIX_POINT_POS
+    const std::string name = std::string("MD30600[") + point + ",";
+    for (const char axis : {'X', 'Y', 'Z'}) add(name + axis + "]", SettingKind::kLength);
+    for (const char axis : {'A', 'B', 'C'}) add(name + axis + "]", SettingKind::kAngle);
+  }
   whole("SD42440", 0, 1);                                  // FRAME_OFFSET_INCR_PROG
   whole("SD42442", 0, 1);                                  // TOOL_OFFSET_INCR_PROG
+  whole("SD55221", 0, kMask);                              // FUNCTION_MASK_SWIVEL_SET
   for (const int number : {55440, 55441, 55442, 55443}) {  // MILL_TOL_FACTOR_...
     add("SD" + std::to_string(number), SettingKind::kNumber);
   }
+  // Of the swivel data record: where CYCLE800 retracts to, and the rotary axis that _DIR means.
+  for (const int number : {38, 39, 40}) {
+    add("TC_CARR" + std::to_string(number), SettingKind::kLength);
+  }
+  whole("swivel_reference", 1, 2);
   add("block_skip", SettingKind::kSwitch);  // "/" and "/0"
   for (int level = 1; level <= 9; ++level) {
     add("block_skip " + std::to_string(level), SettingKind::kSwitch);

@@ -126,9 +126,8 @@ std::shared_ptr<const Program> Program::Load(const std::string& path, Diagnostic
   for (std::size_t offset = 0; offset < text.size(); offset += kChunk) {
     const std::size_t nul = text.substr(offset, kChunk).find('\0');
     if (nul != std::string_view::npos) {
-      return fail(
-          LineOf(text, offset + nul),
-          "is not a text (it has NUL bytes): an NC program must be saved as plain ASCII or UTF-8");
+      return fail(LineOf(text, offset + nul),
+                  "is not a text (it has NUL bytes): it must be saved as plain ASCII or UTF-8");
     }
     program->Release(offset);
   }
@@ -137,8 +136,10 @@ std::shared_ptr<const Program> Program::Load(const std::string& path, Diagnostic
 
 std::string_view Program::Line(std::size_t offset) const {
   if (offset >= text_.size()) return {};
-  const std::size_t end = text_.find_first_of("\r\n", offset);
-  return text_.substr(offset, end == std::string_view::npos ? end : end - offset);
+  // find_first_of() would take ten times as long.
+  std::size_t end = offset;
+  while (end < text_.size() && text_[end] != '\r' && text_[end] != '\n') ++end;
+  return text_.substr(offset, end - offset);
 }
 
 std::string_view Program::LineByNumber(int line) const {

@@ -25,14 +25,15 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"sim/checks", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
     {"sim/collision", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
     {"sim/control", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
+    {"post", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
     {"sim/compare",
-     {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control"}},
+     {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control", "post"}},
     {"sim/report",
      {"sim/base", "kinematics", "sim/machine", "sim/motion", "sim/checks", "sim/collision",
       "sim/compare"}},
     {"sim/app",
      {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control", "sim/checks",
-      "sim/collision", "sim/compare", "sim/report"}},
+      "sim/collision", "sim/compare", "sim/report", "post"}},
 };
 
 struct Library {
@@ -91,8 +92,10 @@ std::vector<Include> ReadIncludes(const std::string& root_folder) {
 
 std::vector<Include> AllIncludes() {
   std::vector<Include> all = ReadIncludes("sim");
-  const std::vector<Include> more = ReadIncludes("kinematics");
-  all.insert(all.end(), more.begin(), more.end());
+  for (const char* folder : {"kinematics", "post"}) {
+    const std::vector<Include> more = ReadIncludes(folder);
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 
@@ -133,7 +136,7 @@ TEST(Architecture, AForbiddenArrowWouldBeSeen) {
 
 TEST(Architecture, FilesStayReadable) {
   const fs::path root(NCSIM_SOURCE_DIR);
-  for (const char* folder : {"sim", "kinematics", "tests"}) {
+  for (const char* folder : {"sim", "kinematics", "post", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".h" && extension != ".cc") continue;

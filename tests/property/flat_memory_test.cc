@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "post/cl_path.h"
 #include "sim/control/controller.h"
 #include "sim/machine/load.h"
 #include "tests/bench/nc_samples.h"
@@ -58,6 +59,38 @@ TEST(FlatMemory, AMillionBlocksNeedNoMoreThanTenThousand) {
   ASSERT_GT(before, 0) << "this kernel has no smaps_rollup";
   EXPECT_GE(Interpret(*machine, 1'000'000), 1'000'000);
   EXPECT_LT(PrivateDirtyKilobytes() - before, 16 * 1024);
+}
+
+/// The path of a cutter-location file with as many points; its motions.
+int ReadPoints(int points) {
+  const fs::path path =
+      fs::temp_directory_path() / ("ncsim_flat_" + std::to_string(points) + ".cls");
+  {
+    std::ofstream out(path);
+    out << "TOOL PATH/A,TOOL,T\nLOAD/TOOL,1\nFEDRAT/MMPM,100.\n";
+    for (int i = 0; i < points; ++i) {
+      out << "GOTO/" << i % 1000 << ".5,0.25," << i % 7 << ",0.6,0.0,0.8\n";
+    }
+    out << "END-OF-PATH\n";
+  }
+  Diagnostics diagnostics;
+  const auto program = nc::Program::Load(path.string(), &diagnostics);
+  fs::remove(path);
+  post::ClPath cl_path(program, 0, {}, &diagnostics);
+  int motions = 0;
+  for (post::ClEvent event; cl_path.Next(&event);) {
+    motions += std::holds_alternative<post::ClMotion>(event.what) ? 1 : 0;
+  }
+  EXPECT_TRUE(diagnostics.all().empty());
+  return motions;
+}
+
+TEST(FlatMemory, AMillionPointsOfAClFileNeedNoMoreThanTenThousand) {
+  EXPECT_EQ(ReadPoints(10'000), 10'000);
+  const long before = PrivateDirtyKilobytes();
+  ASSERT_GT(before, 0) << "this kernel has no smaps_rollup";
+  EXPECT_EQ(ReadPoints(1'000'000), 1'000'000);
+  EXPECT_LT(PrivateDirtyKilobytes() - before, 4 * 1024);
 }
 
 }  // namespace
