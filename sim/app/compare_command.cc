@@ -204,6 +204,10 @@ class Comparing {
     result_.comparison = compare::Compare(std::move(reference_.path), std::move(tested_.path),
                                           result_.tolerances, files_);
     log_.Add(std::move(result_.comparison.findings));
+    if (result_.comparison.runs == 0 && !log_.Has(Severity::kError)) {
+      log_.Add(MakeFinding(Rule::kUncertified, {},
+                           "there is no feed that both programs have: nothing was held together"));
+    }
     result_.findings = log_.Take();
     result_.verdict = ncsim::Judge(result_.findings, all, options_.strict);
     result_.reference = reference_.report;

@@ -297,6 +297,12 @@ TEST_F(CompareCommandTest, WhatIsNotSimulatedIsNotProven) {
   EXPECT_THAT(out_, HasSubstr("offset G54"));
 }
 
+TEST_F(CompareCommandTest, WithoutAFeedNothingIsProven) {
+  const std::string a = Write("a.nc", "G21 G90\nG53 G00 Z-10.\nM30\n");
+  EXPECT_EQ(Compare({a, a, "--model", "umc750.urdf", "--assume", "all"}), kExitUnproven) << out_;
+  EXPECT_THAT(out_, HasSubstr("nothing was held together [uncertified]"));
+}
+
 TEST_F(CompareCommandTest, BadInput) {
   EXPECT_EQ(Compare({kDome.string(), (folder_ / "none.nc").string()}), kExitBadInput);
   EXPECT_THAT(err_, HasSubstr("none.nc: error: "));
