@@ -26,6 +26,13 @@ constexpr double kRounding = 1e-12;
 /// rad: of Alpha(). At the edge of the reach it comes to 1e-7 of the tilt.
 constexpr double kAlphaRounding = 2e-15;
 
+/// The tool axis at the rotary joints' positions, in B.
+Eigen::Vector3d ToolAxisAt(const FiveAxis& five_axis, const std::array<double, 2>& joints) {
+  return Turn(five_axis.rotary_direction(1), joints[1],
+              Turn(five_axis.rotary_direction(0), joints[0], five_axis.tool_axis()))
+      .normalized();
+}
+
 /// A multiple of `period`, counted from `first`, lies strictly between a < b, by more than
 /// `margin`.
 bool Between(double first, double period, double a, double b, double margin) {
@@ -42,11 +49,8 @@ GreatCircle::Fault GreatCircle::Make(const FiveAxis& five_axis, const std::array
   const Eigen::Vector3d& tilt = five_axis.rotary_direction(0);
   const Eigen::Vector3d& other = five_axis.rotary_direction(1);
   if (Along(tilt, tool) || Along(tilt, other)) return Fault::kNotTwoAxes;
-  const auto tool_at = [&](const std::array<double, 2>& joints) {
-    return Turn(other, joints[1], Turn(tilt, joints[0], tool)).normalized();
-  };
-  const Eigen::Vector3d u0 = tool_at(from);
-  const Eigen::Vector3d u1 = tool_at(to);
+  const Eigen::Vector3d u0 = ToolAxisAt(five_axis, from);
+  const Eigen::Vector3d u1 = ToolAxisAt(five_axis, to);
   const double angle = Angle(u0, u1);
   if (angle < kLeastAngle) return Fault::kNoTurn;
   if (angle > kPi - kLeastAngle) return Fault::kOpposite;
@@ -143,9 +147,10 @@ GreatCircle::Fault GreatCircle::Anchor(const std::array<double, 2>& from,
     return true;
   };
   const auto at_pole = [&](double way) { return meridian_ && std::sin(Alpha(way)) < kMeridian; };
+  // At the pole the second joint is where the circle has it, to the bit of what is stated.
   const bool fits = settle(from[0], &start_[0]) && settle(to[0], &end_[0]) &&
-                    (at_pole(psi0_) || settle(from[1], &start_[1])) &&
-                    (at_pole(psi1) || settle(to[1], &end_[1]));
+                    (settle(from[1], &start_[1]) || at_pole(psi0_)) &&
+                    (settle(to[1], &end_[1]) || at_pole(psi1));
   return fits ? Fault::kNone : Fault::kOtherBranch;
 }
 
@@ -180,6 +185,28 @@ std::array<GreatCircle::Range, 2> GreatCircle::RotaryOver(double s0, double s1) 
   ranges[1] = {other_offset_ + azimuth0 + branch_ * tool0 - slack_,
                other_offset_ + azimuth1 + branch_ * tool1 + slack_};
   return ranges;
+}
+
+double AngleFromPole(const FiveAxis& five_axis, const std::array<double, 2>& from,
+                     const std::array<double, 2>& to) {
+  if (five_axis.rotary().size() != 2) return kPi;
+  const Eigen::Vector3d& pole = five_axis.rotary_direction(1);
+  const Eigen::Vector3d u0 = ToolAxisAt(five_axis, from);
+  const Eigen::Vector3d u1 = ToolAxisAt(five_axis, to);
+  double least = kPi;
+  for (const Eigen::Vector3d& u : {u0, u1}) {
+    least = std::min({least, Angle(u, pole), Angle(u, Eigen::Vector3d(-pole))});
+  }
+  const Eigen::Vector3d normal = u0.cross(u1);
+  if (normal.norm() < kLeastAngle) return least;
+  for (const double sign : {1.0, -1.0}) {
+    // The circle's point nearest to this pole, if it lies on the arc.
+    const Eigen::Vector3d nearest = normal.cross(Eigen::Vector3d(sign * pole)).cross(normal);
+    const bool on_arc =
+        normal.dot(u0.cross(nearest)) >= 0.0 && normal.dot(nearest.cross(u1)) >= 0.0;
+    if (on_arc) least = std::min(least, std::abs(std::asin(normal.normalized().dot(pole))));
+  }
+  return least;
 }
 
 }  // namespace ncsim::kinematics

@@ -87,4 +87,10 @@ class GreatCircle {
   double slack_ = 0.0;  // rad: rounding, and what the stated ends differ from the closed solution
 };
 
+/// The least angle, rad, between the second joint's axis (either way round: the poles) and the
+/// shorter arc of the great circle from the tool axis at the joints `from` to that at `to`, in
+/// FiveAxis::rotary() order. Half a turn for a machine without two rotary joints: it has no pole.
+double AngleFromPole(const FiveAxis& five_axis, const std::array<double, 2>& from,
+                     const std::array<double, 2>& to);
+
 }  // namespace ncsim::kinematics

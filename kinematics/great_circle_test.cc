@@ -111,6 +111,42 @@ TEST_F(BcTable, BesideThePoleTheSecondJointSwings) {
   EXPECT_GT((ranges[1].upper - ranges[1].lower) / kDeg, 170.0);
 }
 
+// From B b C0 to B b C2g the circle's middle is nearest to the pole: tan alpha0 = tan b cos g. From
+// B30 C0 to B50 C0 the end at B30 is.
+TEST_F(BcTable, AngleFromPole) {
+  const auto angle = [&](double b0, double c0, double b1, double c1) {
+    return AngleFromPole(five_axis_, {b0 * kDeg, c0 * kDeg}, {b1 * kDeg, c1 * kDeg}) / kDeg;
+  };
+  for (const double g : {10.0, 45.0, 80.0, 89.9}) {
+    EXPECT_NEAR(angle(20, 0, 20, 2 * g), std::atan(std::tan(20 * kDeg) * std::cos(g * kDeg)) / kDeg,
+                1e-9);
+  }
+  EXPECT_NEAR(angle(30, 0, 50, 0), 30.0, 1e-9);
+  EXPECT_NEAR(angle(30, 7, -20, 7), 0.0, 1e-6);
+  EXPECT_NEAR(angle(0, 0, 20, 7), 0.0, 1e-6);
+  EXPECT_NEAR(angle(0, 0, 0, 90), 0.0, 1e-6);
+  EXPECT_NEAR(angle(175, 0, 170, 0), 5.0, 1e-9);
+}
+
+// The least over ten thousand places of the arc.
+TEST_F(BcTable, AngleFromPoleAgainstSamples) {
+  Random random(52);
+  for (int i = 0; i < 200; ++i) {
+    const Angles from{random.Uniform(-1.5, 1.5), random.Uniform(-7.0, 7.0)};
+    const Angles to{random.Uniform(-1.5, 1.5), random.Uniform(-7.0, 7.0)};
+    const Eigen::Vector3d u0 = ToolAxis(five_axis_, from, 5);
+    const Eigen::Vector3d u1 = ToolAxis(five_axis_, to, 5);
+    double least = 2.0;
+    for (int j = 0; j <= 10'000; ++j) {
+      // Not at constant speed, and over the same arc.
+      const Eigen::Vector3d u = (std::lerp(1.0, 0.0, j * 1e-4) * u0 + j * 1e-4 * u1).normalized();
+      least = std::min(least, std::atan2(std::hypot(u.x(), u.y()), std::abs(u.z())));
+    }
+    EXPECT_NEAR(AngleFromPole(five_axis_, from, to), least, 2e-3);
+    EXPECT_LT(AngleFromPole(five_axis_, from, to), least + 1e-9);
+  }
+}
+
 /// The tool axis is on the great circle (closed form: sin((1 - s) a) u0 + sin(s a) u1 over sin a),
 /// and the joints stay within RotaryOver of a random stretch.
 void ExpectFollows(const FiveAxis& five_axis, const GreatCircle& circle, const Angles& from,

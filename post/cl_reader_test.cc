@@ -233,7 +233,7 @@ TEST_F(ClReaderTest, WhatIsNotKnownIsReported) {
 }
 
 TEST(ClWordsTest, AreInOrderAndSayWhatTheyAre) {
-  const std::vector<ClWord>& words = ClWords();
+  const std::span<const ClWord> words = ClWords();
   EXPECT_TRUE(std::is_sorted(words.begin(), words.end(),
                              [](const ClWord& a, const ClWord& b) { return a.major < b.major; }));
   for (const ClWord& word : words) {

@@ -3,8 +3,9 @@
 // effect, and refused. docs/cl-files.md is held against it.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string_view>
-#include <vector>
 
 #include "post/cl_arguments.h"
 #include "post/cl_record.h"
@@ -28,7 +29,7 @@ struct ClWord {
 std::string_view ToString(ClWord::Use use);
 
 /// In alphabetic order.
-const std::vector<ClWord>& ClWords();
+std::span<const ClWord> ClWords();
 /// Null for a word that is not in the table.
 const ClWord* FindClWord(std::string_view major);
 

@@ -172,6 +172,7 @@ class ProgramCheck {
       log_.Add(std::move(bodies.findings));
       result.clearances = std::move(bodies.clearances);
       result.cuts = std::move(bodies.cuts);
+      result.orientation_tolerance = bodies.orientation_tolerance;
       outcome_.outcomes = bodies.outcomes;
       outcome_.recalled = bodies.recalled;
     } else {

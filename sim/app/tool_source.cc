@@ -76,12 +76,17 @@ double ProgramUnit(const machine::Machine& machine, const machine::Job& job,
 
 machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job& job,
                              const nc::Program& program) {
-  if (job.has_tools) return {job.tools};
+  const std::string& interface = machine.control.spindle_interface;
+  if (job.has_tools) {
+    machine::ToolTable table{job.tools};
+    for (machine::Tool& tool : table.tools) machine::ChangeAssumedHolder(interface, &tool);
+    return table;
+  }
   const double unit = ProgramUnit(machine, job, program);
   std::map<int, machine::Tool> tools;
   for (const nc::HeaderTool& header : nc::ReadHeaderTools(program)) {
     machine::Tool tool = machine::AssumeTool(header.number, header.name, unit * header.diameter,
-                                             unit * header.corner_radius, 0.0, "");
+                                             unit * header.corner_radius, 0.0, interface);
     tool.assumed +=
         " (diameter from the program's comment at line " + std::to_string(header.line) + ")";
     tools.emplace(header.number, std::move(tool));
@@ -89,7 +94,7 @@ machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job
   const bool sinumerik = machine.control.dialect == control::kSinumerik840d;
   for (const int number : sinumerik ? SinumerikToolNumbers(program) : ToolNumbers(program)) {
     if (tools.count(number) == 0) {
-      tools.emplace(number, machine::AssumeTool(number, "", 0.0, 0.0, 0.0, ""));
+      tools.emplace(number, machine::AssumeTool(number, "", 0.0, 0.0, 0.0, interface));
     }
   }
   machine::ToolTable table;

@@ -13,6 +13,8 @@ namespace {
 /// rad, a millionth of a degree: far below the resolution of any control.
 constexpr double kMoves = 2e-8;
 
+constexpr int kSamples = 64;  // of a motion, for the words of a finding alone
+
 class RotaryUnderTcpCheck : public Check {
  public:
   explicit RotaryUnderTcpCheck(const machine::Machine& machine) : machine_(&machine) {}
@@ -25,13 +27,11 @@ class RotaryUnderTcpCheck : public Check {
       if (std::abs(turn) <= kMoves) continue;
       if (!run_.open()) {
         const bool held = std::holds_alternative<motion::TcpCurve>(motion.path);
-        run_.Start(FindingAt(
-            *machine_, Rule::kRotaryUnderTcp, motion, 0.0,
-            std::string("a rapid turns axis ") + axis.letter + " by " + Fixed(Degrees(turn), 3) +
-                " deg while TCP is active: " +
-                (held ? "the linear axes swing at rapid to lead the tip on its line; turn the "
-                        "axis before TCP is switched on"
-                      : "the tip does not hold its point on the way")));
+        run_.Start(
+            FindingAt(*machine_, Rule::kRotaryUnderTcp, motion, 0.0,
+                      std::string("a rapid turns axis ") + axis.letter + " by " +
+                          Fixed(Degrees(turn), 3) + " deg while TCP is active: " +
+                          (held ? Swing(motion) : "the tip does not hold its point on the way")));
       }
       run_.Add(motion.where);
       return;
@@ -42,6 +42,24 @@ class RotaryUnderTcpCheck : public Check {
   void Finish(std::vector<Finding>* findings) override { run_.Close(findings); }
 
  private:
+  /// What the linear axes do so that the tip keeps to its way over the part.
+  std::string Swing(const motion::Motion& motion) const {
+    motion::JointVector farthest = motion::JointVector::Zero(motion.q0().size());
+    for (int i = 1; i <= kSamples; ++i) {
+      const double s = static_cast<double>(i) / kSamples;
+      farthest = farthest.cwiseMax((motion.At(s) - motion.q0()).cwiseAbs());
+    }
+    std::string text = "the linear axes swing at rapid to lead the tip with the part, ";
+    bool first = true;
+    for (const machine::Axis& axis : machine_->axes) {
+      if (axis.rotary) continue;
+      if (!first) text += ", ";
+      first = false;
+      text += axis.letter + (" by up to " + Fixed(farthest[axis.joint], 1)) + " mm";
+    }
+    return text + "; turn the axis before TCP is switched on";
+  }
+
   const machine::Machine* machine_;
   RunFinding run_;
 };

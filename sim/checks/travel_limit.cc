@@ -8,6 +8,7 @@
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
 #include "sim/checks/excursion.h"
+#include "sim/machine/settings.h"
 
 namespace ncsim::checks {
 namespace {
@@ -24,7 +25,8 @@ struct Side {
   double limit = 0.0;
   double tolerance = 0.0;
   RunFinding run;
-  double worst = 0.0;  ///< Greatest excess of the run, mm or rad.
+  double worst = 0.0;      ///< Greatest excess of the run, mm or rad.
+  std::string_view alarm;  ///< The control's, at the run's first motion.
   RunFinding unproven;
 };
 
@@ -37,22 +39,24 @@ std::string Message(Side& side) {
   const bool rotary = side.axis->rotary;
   const auto shown = [&](double value) { return rotary ? Degrees(value) : value; };
   const std::string_view unit = rotary ? " deg" : " mm";
+  const std::string alarm = side.alarm.empty() ? "" : " (alarm " + std::string(side.alarm) + ")";
   const double reached = shown(side.limit + side.sense * side.worst);
   return std::string("axis ") + side.axis->letter + " reaches " +
          Number(reached, shown(side.worst)).append(unit) + ", limit " +
-         Short(shown(side.limit)).append(unit) + "; it leaves at " +
+         Short(shown(side.limit)).append(unit) + alarm + "; it leaves at " +
          ToString(side.run.finding().axes);
 }
 
 class TravelLimitCheck : public Check {
  public:
-  explicit TravelLimitCheck(const machine::Machine& machine) : machine_(&machine) {
+  explicit TravelLimitCheck(const machine::Machine& machine)
+      : machine_(&machine), alarms_(machine::LimitAlarmsOf(machine.control.dialect)) {
     for (const machine::Axis& axis : machine.axes) {
       const double tolerance = axis.rotary ? kToleranceRad : kToleranceMm;
       if (std::isfinite(axis.lower))
-        sides_.push_back({&axis, -1.0, axis.lower, tolerance, {}, 0.0, {}});
+        sides_.push_back({&axis, -1.0, axis.lower, tolerance, {}, 0.0, {}, {}});
       if (std::isfinite(axis.upper))
-        sides_.push_back({&axis, 1.0, axis.upper, tolerance, {}, 0.0, {}});
+        sides_.push_back({&axis, 1.0, axis.upper, tolerance, {}, 0.0, {}, {}});
     }
   }
 
@@ -92,6 +96,9 @@ class TravelLimitCheck : public Check {
           side.run.Start(
               FindingAt(*machine_, Rule::kTravelLimit, motion, excursion.s, std::string()));
           side.worst = 0.0;
+          const double end = motion.q1()[side.axis->joint];
+          const bool ends_behind = side.sense * (end - side.limit) > side.tolerance;
+          side.alarm = ends_behind ? alarms_.end : alarms_.way;
         }
         side.run.Add(motion.where);
         side.worst = std::max(side.worst, excursion.worst);
@@ -121,6 +128,7 @@ class TravelLimitCheck : public Check {
   }
 
   const machine::Machine* machine_;
+  const machine::LimitAlarms alarms_;
   std::vector<Side> sides_;
   motion::JointBox box_;
 };

@@ -125,6 +125,21 @@ TEST_F(TravelLimitTest, GreatCircleLeadsARotaryAxisBeyondItsLimit) {
   EXPECT_THAT(Check({VectorFeed(machine_, 6, p_B, p_B, 115.0, 0.0, 115.0, 40.0)}), IsEmpty());
 }
 
+// A SINUMERIK stops before a block that ends behind the limit (10720), and in one that only leads
+// there (10620).
+TEST_F(TravelLimitTest, TheControlsAlarmIsNamed) {
+  machine_.control.dialect = "sinumerik-840d";
+  auto findings = Check({Feed(1, middle_, Axes(-381.0, -254.0, -200.0, 125.0, 0.0))});
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].message,
+              StartsWith("axis B reaches 125.000 deg, limit 120 deg (alarm 10720); it leaves at "));
+  const Eigen::Vector3d p_B(386.0, 0.0, 0.0);
+  findings = Check({TcpFeed(machine_, 6, p_B, p_B, -20.0, 0.0, 20.0, 0.0)});
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].message,
+              StartsWith("axis X reaches 5.000 mm, limit 0 mm (alarm 10620); it leaves at "));
+}
+
 TEST_F(TravelLimitTest, TcpBulgeThatJustTouchesTheLimitIsFine) {
   const Eigen::Vector3d p_B(381.0, 0.0, 0.0);
   EXPECT_THAT(Check({TcpFeed(machine_, 6, p_B, p_B, -20.0, 0.0, 20.0, 0.0)}), IsEmpty());

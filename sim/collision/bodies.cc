@@ -85,6 +85,7 @@ ToolBody::ToolBody(const machine::Tool& tool_data, machine::BodyKind body_kind, 
   extent.link = spindle_link;
   extent.p_LC = Vector3d(0.0, 0.0, length - 0.5 * (shape.z_min() + shape.z_max()));
   extent.radius = std::hypot(0.5 * (shape.z_max() - shape.z_min()), shape.r_max());
+  reach = std::hypot(std::max(std::abs(shape.z_min()), std::abs(shape.z_max())), shape.r_max());
   double cutter = 0.5 * tool_data.diameter;
   if (!tool_data.flutes.empty()) cutter = ProfileShape(tool_data.flutes).r_max();
   thin = kind == machine::BodyKind::kShank && shape.r_max() <= cutter + 1e-6;

@@ -39,6 +39,7 @@ struct ToolBody {
   machine::BodyKind kind = machine::BodyKind::kFlutes;
   int tool = 0;
   double length = 0.0;  ///< Gauge line to tip, mm.
+  double reach = 0.0;   ///< From the tip to the farthest point, or a little more, mm.
   kinematics::Extent extent;
   ProfileShape shape;
   FclMesh fcl;  ///< Circumscribed.

@@ -189,6 +189,10 @@ std::vector<Change> OtherSettingsAndMotions() {
        [](Rig* r) {
          for (auto& m : r->motions()) m.facts.corner_rounding = 40.0;
        }},
+      {"the tool may lean",
+       [](Rig* r) {
+         for (auto& m : r->motions()) m.facts.orientation_tolerance = 0.4;
+       }},
       {"rapids for feeds",
        [](Rig* r) {
          for (auto& m : r->motions()) m.kind = motion::MotionKind::kRapid;

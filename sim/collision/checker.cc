@@ -57,6 +57,7 @@ struct CollisionChecker::State {
   std::vector<const MeshBody*> newly_broken;  // not reported yet
   std::uint64_t number = 0;                   // of motions so far
   std::uint64_t outcomes = 0, recalled = 0;
+  double lean = 0.0;
   Batch filling, running;
   std::size_t windows = 0;  // in `filling`
   std::size_t batch_size = 1;
@@ -186,6 +187,7 @@ void CollisionChecker::State::Complete() {
   for (const BatchRun& run : done) {
     outcomes += run.outcomes.size();
     if (run.known != nullptr) recalled += run.known->recalled();
+    lean = std::max(lean, run.travel->orientation_tolerance());
   }
   Tell(&done, &findings);
 }
@@ -213,6 +215,7 @@ CollisionResult CollisionChecker::Finish() {
   CollisionResult result;
   result.outcomes = state_->outcomes;
   result.recalled = state_->recalled;
+  result.orientation_tolerance = state_->lean;
   std::vector<WatchedPairs*> all{&state_->scene};
   for (auto& [tool, pairs] : state_->by_tool) all.push_back(&pairs);
   for (WatchedPairs* pairs : all) {
@@ -222,8 +225,8 @@ CollisionResult CollisionChecker::Finish() {
       report.Finish(watched->setup, &state_->findings);
       result.queries += report.queries();
       if (watched->has_clearance()) {
-        result.clearances.push_back(
-            {pair.names, report.least().lower, report.least().upper, report.least_where()});
+        result.clearances.push_back({pair.names, report.least().lower, report.least().upper,
+                                     report.least_where(), report.widened()});
       }
       if (pair.role != PairRole::kFlutesPart || report.least().upper >= 0.0) continue;
       const DeepestCut cut{pair.tool->tool, -report.least().upper, report.least_where()};

@@ -24,6 +24,9 @@ struct PairClearance {
   double proven_mm = 0.0;
   double seen_mm = 0.0;
   SourcePosition where;
+  /// What smoothing may take the pair off its programmed motions, at most: it was to clear that
+  /// much wherever it applies.
+  double widened_mm = 0.0;
 };
 
 /// The deepest that each tool's flutes went into the part in feeds (mm, >= 0).
@@ -39,7 +42,8 @@ struct CollisionResult {
   std::vector<Finding> findings;  ///< In program order; one for a run of blocks in contact.
   std::vector<PairClearance> clearances;
   std::vector<DeepestCut> cuts;
-  std::uint64_t queries = 0;  ///< Poses at which a clearance was computed, over all pairs.
+  double orientation_tolerance = 0.0;  ///< rad: greatest motion::Facts::orientation_tolerance.
+  std::uint64_t queries = 0;           ///< Poses at which a clearance was computed, over all pairs.
   /// Pairs over runs of motions, and those of them that the cache knew: nothing else depends on it.
   std::uint64_t outcomes = 0, recalled = 0;
 };

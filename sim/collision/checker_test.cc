@@ -411,6 +411,53 @@ TEST(CheckerTest, CornerRoundingWidens) {
   }
 }
 
+// A flat jaw beside the holder (radius 20, 90 to 150 above the tip), which a tool axis off by a
+// degree takes up to hypot(150, 20) tan(1 deg) nearer: 2.64 mm.
+TEST(CheckerTest, OrientationToleranceWidensByTheDistanceFromTheTip) {
+  const double widened = 0.1 + std::hypot(150.0, 20.0) * std::tan(Radians(1.0));
+  for (const double spare : {-0.05, 0.05}) {
+    for (const bool after_a_rapid : {false, true}) {
+      Rig rig;
+      const double y = 20.0 + widened + spare;
+      rig.AddBox("jaw", BodyKind::kFixture, {-50, y, 100}, {50, y + 20, 130});
+      rig.Start(-100, 0, 10);
+      if (after_a_rapid) rig.Rapid(-90, 0, 10);  // exact
+      rig.facts().corner_rounding = 0.1;
+      rig.facts().orientation_tolerance = Radians(1.0);
+      rig.Tcp({-90, 0, 10}, {90, 0, 10}, 0, 0, 0, 0);
+      const CollisionResult result = rig.Run();
+      EXPECT_EQ(result.orientation_tolerance, Radians(1.0));
+      const auto jaw =
+          std::find_if(result.clearances.begin(), result.clearances.end(),
+                       [](const PairClearance& c) { return c.bodies.front() == "T3.holder"; });
+      ASSERT_NE(jaw, result.clearances.end());
+      EXPECT_NEAR(jaw->widened_mm, widened, 1e-9);
+      if (spare > 0.0) {
+        EXPECT_THAT(result.findings, IsEmpty()) << Words(result);
+        continue;
+      }
+      ASSERT_THAT(result.findings, SizeIs(1)) << Words(result);
+      EXPECT_EQ(result.findings[0].rule, Rule::kUncertified);
+      EXPECT_THAT(result.findings[0].message,
+                  HasSubstr("smoothing, which may turn the tool by 1 deg, may take it 2.741 mm "
+                            "off its way"));
+    }
+  }
+}
+
+// Near misses may be wanted of nothing (clearance 0): what is crossed at a time is held against
+// the rounding of all of it, not of its first motion.
+TEST(CheckerTest, RoundingOfMotionsThatAreCrossedAtATime) {
+  Rig rig;
+  rig.AddBox("jaw", BodyKind::kFixture, {-50, 6.2, 0}, {50, 20, 40});
+  rig.Start(-300, 0, 10);
+  for (int i = 0; i < 50; ++i) rig.Rapid(-250 + i, 0, 10);
+  rig.facts().corner_rounding = 1.3;
+  for (int i = 0; i < 200; ++i) rig.Feed(-200 + i, 0, 10);  // 1.2 beside it
+  const CollisionResult result = rig.Run();
+  EXPECT_THAT(Of(result, Rule::kUncertified), SizeIs(2)) << Words(result);
+}
+
 TEST(CheckerTest, TcpMotionIsTracked) {
   // The tip stays on one point while B turns from -20 to 20: the holder, from 90 above the tip,
   // swings past a post that stands on the table.

@@ -9,12 +9,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void WatchClearance(const motion::Motion& motion, const machine::CheckSettings& settings,
-                    Watch* watch) {
-  watch->clearance = settings.clearance;
-  watch->rounding = motion.facts.corner_rounding;
-  watch->track = true;
-  watch->track_below = std::max(2.0 * settings.clearance, settings.exact_below);
+void WatchClearance(const machine::CheckSettings& settings, Judgement* judgement) {
+  judgement->widened = true;
+  Watch& watch = judgement->watch;
+  watch.clearance = settings.clearance;
+  watch.track = true;
+  watch.track_below = std::max(2.0 * settings.clearance, settings.exact_below);
 }
 
 }  // namespace
@@ -48,6 +48,10 @@ double RapidReference::Kept(int cycle) const {
   return std::max(memory_.depth, cycle > 0 && cycle == memory_.cycle ? memory_.cycle_depth : 0.0);
 }
 
+bool IsWidened(PairRole role) {
+  return role == PairRole::kNeverTouch || role == PairRole::kOtherBlank;
+}
+
 bool Uncut(const BlankState& blank, std::uint64_t number, double s) {
   return !blank.cut || number < blank.motion || (number == blank.motion && s < blank.s);
 }
@@ -60,7 +64,7 @@ Judgement Judge(PairRole role, const motion::Motion& motion, const machine::Chec
   const auto clamp = [floor](double tolerance) { return std::min(tolerance, -0.5 * floor); };
   switch (role) {
     case PairRole::kNeverTouch:
-      WatchClearance(motion, settings, &judgement.watch);
+      WatchClearance(settings, &judgement);
       break;
     case PairRole::kFlutesPart:
     case PairRole::kThinShankPart:
@@ -87,7 +91,7 @@ Judgement Judge(PairRole role, const motion::Motion& motion, const machine::Chec
     case PairRole::kOtherBlank:
       judgement.rule = Rule::kStockContact;
       if (blank->cut && blank->motion <= number) break;
-      WatchClearance(motion, settings, &judgement.watch);
+      WatchClearance(settings, &judgement);
       judgement.watch.track = false;  // a clearance to what will be cut away is no number to report
       break;
   }

@@ -57,6 +57,7 @@ class RapidReference {
 
 struct Judgement {
   bool checked = false;  ///< False: nothing to check on this motion.
+  bool widened = false;  ///< The caller sets watch.rounding to what smoothing may do to the pair.
   Watch watch;
   Rule rule = Rule::kCollision;
   Severity severity = Severity::kError;
@@ -68,6 +69,10 @@ struct Judgement {
 /// `number` counts the motions.
 Judgement Judge(PairRole role, const motion::Motion& motion, const machine::CheckSettings& settings,
                 const BlankState* blank, std::uint64_t number, double allowed, double floor);
+
+/// Must such a pair clear what smoothing may do to it? Flutes and what counts as flutes need not:
+/// against part and blank they are where they should be.
+bool IsWidened(PairRole role);
 
 /// Was the blank still whole at `s` of motion `number`?
 bool Uncut(const BlankState& blank, std::uint64_t number, double s);

@@ -189,7 +189,7 @@ Digest ContentOf(const machine::SceneBody& body) {
 }
 
 Digest ContentOf(const ToolBody& body, const machine::Profile& profile) {
-  const auto& [name, kind, tool, length, extent, shape, fcl, thin, content] = body;
+  const auto& [name, kind, tool, length, reach, extent, shape, fcl, thin, content] = body;
   ByteWriter out;
   out.PutText(name);
   out.Put(kind);
@@ -201,7 +201,7 @@ Digest ContentOf(const ToolBody& body, const machine::Profile& profile) {
 }
 
 Digest ContentOf(const PairSetup& setup) {
-  const auto& [machine, settings, pair, path, swept_path] = setup;
+  const auto& [machine, settings, pair, path, swept_path, smoothing] = setup;
   ByteWriter out;
   Put(*machine, &out);
   Put(settings, &out);

@@ -133,13 +133,14 @@ TEST(ContentTest, SoDoKindAndFactsAndTheTool) {
   const Changes<motion::Motion> changes{[](auto* m) { m->kind = motion::MotionKind::kRapid; },
                                         [](auto* m) { m->facts.spindle_on = false; },
                                         [](auto* m) { m->facts.cycle = 3; },
-                                        [](auto* m) { m->facts.corner_rounding = 0.1; }};
+                                        [](auto* m) { m->facts.corner_rounding = 0.1; },
+                                        [](auto* m) { m->facts.orientation_tolerance = 0.1; }};
   for (const auto& change : changes) {
     motion::Motion changed = motion;
     change(&changed);
     seen.insert(ContentOf(rig, changed));
   }
-  EXPECT_EQ(seen.size(), 6u);
+  EXPECT_EQ(seen.size(), 7u);
 }
 
 }  // namespace ncsim::collision

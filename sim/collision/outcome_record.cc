@@ -12,13 +12,13 @@ namespace {
 enum class BlankChange : std::uint8_t { kNone, kCutHere };
 
 void Put(const ContactRun& run, ByteWriter* out) {
-  const auto& [kind, rule, severity, first, last, motion, at, points, least, tolerance, only_lag,
-               done] = run;
+  const auto& [kind, rule, severity, first, last, motion, at, points, least, tolerance, lean,
+               only_lag, done] = run;
   out->Put(kind);
   out->Put(rule);
   out->Put(severity);
   for (const std::size_t index : {first, last, motion}) out->Put(index);
-  for (const double number : {at.s, at.lag, least, tolerance}) out->Put(number);
+  for (const double number : {at.s, at.lag, least, tolerance, lean}) out->Put(number);
   out->Put(only_lag);
   out->Put(done);
   out->Put(points.size());
@@ -38,6 +38,7 @@ bool Get(ByteReader* in, std::size_t motions, ContactRun* run) {
   run->at.lag = in->Get<double>();
   run->least = in->Get<double>();
   run->tolerance = in->Get<double>();
+  run->lean = in->Get<double>();
   run->only_lag = in->Get<bool>();
   run->done = in->Get<bool>();
   const auto points = in->Get<std::size_t>();
@@ -53,13 +54,15 @@ bool Get(ByteReader* in, std::size_t motions, ContactRun* run) {
 }
 
 void Put(const PairOutcome& outcome, ByteWriter* out) {
-  const auto& [runs, uncertified, uncertified_at, touched, least, least_at, queries] = outcome;
+  const auto& [runs, uncertified, uncertified_at, touched, least, least_at, widened, queries] =
+      outcome;
   out->PutText(uncertified);
   out->Put(uncertified_at);
   out->Put(touched);
   out->Put(least.lower);
   out->Put(least.upper);
   out->Put(least_at);
+  out->Put(widened);
   out->Put(queries);
   out->Put(runs.size());
   for (const ContactRun& run : runs) Put(run, out);
@@ -72,6 +75,7 @@ bool Get(ByteReader* in, std::size_t motions, PairOutcome* outcome) {
   outcome->least.lower = in->Get<double>();
   outcome->least.upper = in->Get<double>();
   outcome->least_at = in->Get<std::size_t>();
+  outcome->widened = in->Get<double>();
   outcome->queries = in->Get<std::uint64_t>();
   const auto runs = in->Get<std::size_t>();
   for (std::size_t i = 0; i < runs; ++i) {

@@ -21,10 +21,13 @@ std::unique_ptr<PairEngine> EngineOf(const Pair& pair) {
   return pair.tool ? MakeEngine(pair.tool, pair.b) : MakeEngine(pair.mesh_a, pair.b);
 }
 
+const kinematics::FiveAxis* FiveAxisOf(const machine::Machine& machine) {
+  return machine.five_axis ? &*machine.five_axis : nullptr;
+}
+
 template <class AnyPair>
 motion::PairPath PathOf(const machine::Machine& machine, const AnyPair& pair) {
-  return motion::PairPath(machine.tree, pair.extent_a(), pair.link_b(),
-                          machine.five_axis ? &*machine.five_axis : nullptr);
+  return motion::PairPath(machine.tree, pair.extent_a(), pair.link_b(), FiveAxisOf(machine));
 }
 
 }  // namespace
@@ -34,7 +37,10 @@ PairSetup::PairSetup(const machine::Machine& machine_data, const machine::CheckS
     : machine(&machine_data),
       settings(check),
       pair(std::move(bodies)),
-      path(PathOf(machine_data, pair)) {
+      path(PathOf(machine_data, pair)),
+      smoothing(machine_data.tree, FiveAxisOf(machine_data), path,
+                pair.tool ? std::optional<double>(pair.tool->reach) : std::nullopt,
+                pair.b->extent) {
   path.revolved = pair.tool != nullptr;
   if (pair.swept != nullptr) swept_path.emplace(PathOf(machine_data, *pair.swept));
 }
@@ -59,6 +65,7 @@ PairCheck::PairCheck(const PairSetup& setup, const motion::Travel& travel, std::
 }
 
 PairOutcome PairCheck::Run() {
+  if (IsWidened(pair().role)) outcome_.widened = setup_->smoothing.Greatest(*travel_);
   while (at_ < travel_->size()) {
     if (Cross()) continue;
     OnMotion();
@@ -89,8 +96,12 @@ bool PairCheck::cutting() const {
 }
 
 Judgement PairCheck::JudgeMotion(double allowed) const {
-  return Judge(pair().role, motion(), setup_->settings, blank_, number(), allowed,
-               engine_->floor());
+  Judgement judgement =
+      Judge(pair().role, motion(), setup_->settings, blank_, number(), allowed, engine_->floor());
+  if (judgement.widened) {
+    judgement.watch.rounding = setup_->smoothing.Of(motion(), travel_->tool_length());
+  }
+  return judgement;
 }
 
 // Passes over motions that are clear, and by so much that no rule has anything to say. What is
@@ -99,7 +110,7 @@ bool PairCheck::Cross() {
   Judgement judgement = JudgeMotion(0.0);
   if (!judgement.checked || carry_->warned) return false;
   Watch& watch = judgement.watch;
-  if (watch.clearance > 0.0) watch.rounding = travel_->corner_rounding();
+  if (judgement.widened) watch.rounding = outcome_.widened;
   if (cutting()) watch.track = false;  // of rapids no depth is told
   std::size_t end = sweep_.has_least() ? CrossSwept(watch) : at_;
   if (end == at_ && cross_.Ready()) {
@@ -339,9 +350,10 @@ void PairCheck::OnClear(const Judgement& judgement, const SweepResult& result) {
   if (!near_.open) {
     Open(ContactRun::Kind::kNear, rule, Info(rule).severity, result.least_at, &near_);
   }
-  near_.run.tolerance = rounded ? watch.rounding : watch.clearance;
   if (result.least.upper < near_.run.least) {
     near_.run.least = result.least.upper;
+    near_.run.tolerance = rounded ? watch.rounding : watch.clearance;
+    near_.run.lean = rounded ? motion().facts.orientation_tolerance : 0.0;
     Place(result.least_at, &near_);
   }
   near_.run.last = at_;

@@ -19,18 +19,22 @@
 #include "sim/collision/patience.h"
 #include "sim/collision/sweep.h"
 #include "sim/machine/machine.h"
+#include "sim/motion/smoothing.h"
 
 namespace ncsim::collision {
 
 /// What all checks of a pair share and none changes. The machine outlives it.
 struct PairSetup {
   PairSetup(const machine::Machine& machine, const machine::CheckSettings& settings, Pair pair);
+  PairSetup(const PairSetup&) = delete;  // `smoothing` holds on to `path`
+  PairSetup& operator=(const PairSetup&) = delete;
 
   const machine::Machine* machine;
   machine::CheckSettings settings;
   Pair pair;
   motion::PairPath path;
   std::optional<motion::PairPath> swept_path;  ///< Of pair.swept, if there is one.
+  motion::Smoothing smoothing;
 };
 
 /// What passes from one run of motions of a pair to the next.

@@ -29,6 +29,7 @@ struct ContactRun {
   std::vector<std::array<double, 3>> points;               ///< As Finding::points.
   double least = std::numeric_limits<double>::infinity();  ///< Clearance, mm; minus the depth.
   double tolerance = 0.0;                                  ///< mm, of the rule.
+  double lean = 0.0;      ///< rad: the turn of the tool axis that `tolerance` allows for.
   bool only_lag = false;  ///< Not on the polyline of infinite acceleration.
   bool done = false;      ///< The same fault on the next motion would be another run.
 };
@@ -41,6 +42,7 @@ struct PairOutcome {
   /// Least clearance over the run; upper is +inf where nothing was seen that is of interest.
   Interval least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   std::size_t least_at = 0;  ///< The motion where that was seen.
+  double widened = 0.0;      ///< mm: what the pair was to clear for smoothing, at most.
   std::uint64_t queries = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/base/text.h"
+#include "sim/base/units.h"
 #include "sim/collision/contact_text.h"
 
 namespace ncsim::collision {
@@ -16,8 +17,10 @@ std::string DescribeNear(const Pair& pair, const ContactRun& run, const Finding&
   const std::string limit = Short(run.tolerance, 3) + " mm";
   return Spoken(a) + " " + Verb(a, "comes", "come") + " within " + Short(*finding.clearance_mm, 2) +
          " mm of " + Spoken(pair.names.back()) +
-         (finding.rule == Rule::kNearMiss
-              ? " (clearance " + limit + ")"
+         (finding.rule == Rule::kNearMiss ? " (clearance " + limit + ")"
+          : run.lean > 0.0
+              ? ", and smoothing, which may turn the tool by " + Short(Degrees(run.lean), 3) +
+                    " deg, may take it " + limit + " off its way,"
               : ", and the control may round the corner by " + limit + ",") +
          " at " + ToString(finding.axes);
 }
@@ -75,6 +78,8 @@ void PairReport::Take(const PairSetup& setup, Open next, NumberedFindings* findi
   }
   if (next.run.kind == ContactRun::Kind::kNear && next.run.least < open->run.least) {
     open->blocks.finding() = next.blocks.finding();
+    open->run.tolerance = next.run.tolerance;
+    open->run.lean = next.run.lean;
   }
   open->blocks.Append(next.blocks);
   open->last = next.last;
@@ -86,6 +91,7 @@ void PairReport::Add(const PairSetup& setup, const motion::Travel& run, std::uin
                      PairOutcome outcome, NumberedFindings* findings) {
   queries_ += outcome.queries;
   touched_ = touched_ || outcome.touched;
+  widened_ = std::max(widened_, outcome.widened);
   least_.lower = std::min(least_.lower, outcome.least.lower);
   if (outcome.least.upper < least_.upper) {
     least_.upper = outcome.least.upper;

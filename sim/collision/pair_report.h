@@ -30,6 +30,8 @@ class PairReport {
   /// Over all motions so far.
   const Interval& least() const { return least_; }
   const SourcePosition& least_where() const { return least_where_; }
+  /// By how much the pair was widened for smoothing, at most, mm.
+  double widened() const { return widened_; }
   bool touched() const { return touched_; }
   bool uncertified() const { return uncertified_; }
   std::uint64_t queries() const { return queries_; }
@@ -48,6 +50,7 @@ class PairReport {
   std::array<std::optional<Open>, ContactRun::kKinds> open_;
   Interval least_ = PairOutcome().least;
   SourcePosition least_where_;
+  double widened_ = 0.0;
   bool touched_ = false;
   bool uncertified_ = false;
   std::uint64_t queries_ = 0;

@@ -24,8 +24,7 @@ struct Watch {
       0.0;  ///< At or below this clearance is contact (-tolerance for flutes); -inf: never.
   /// Every pose must be told to be at least this clear, or one that is not be found; 0: not wanted.
   double clearance = 0.0;
-  double rounding =
-      0.0;  ///< As `clearance`, for the deviation that the control may make at corners.
+  double rounding = 0.0;  ///< As `clearance`, for what the control's smoothing may do.
   /// The least clearance of the near-miss run that is open, to be followed on; +inf for none.
   double run_least = std::numeric_limits<double>::infinity();
   bool track = false;  ///< Keep the pair's least clearance (see PairSweep::least).

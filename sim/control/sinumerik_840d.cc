@@ -26,6 +26,7 @@ MotionOptions ToMotionOptions() {
   options.track_tcp_rapids = true;
   options.rotary_follows = true;
   options.slows_down = true;
+  options.rounds_rapids = true;  // STOLF, MD20560: the standard factor of G0 is 1
   return options;
 }
 
@@ -72,7 +73,8 @@ void CallModally(SinumerikFlow* flow, SinumerikInterpreter* interpreter, const R
 RunSummary RunSinumerik840d(std::shared_ptr<const nc::Program> program,
                             const machine::Machine& machine, const machine::Job& job,
                             const machine::ToolTable& tools, SourceFiles* files,
-                            std::vector<PartFrame>* part_frames, RunSink* sink) {
+                            std::vector<PartFrame>* part_frames, RunSink* sink,
+                            std::uint64_t max_blocks) {
   RunSummary summary;
   RunLog log(sink, &summary);
   const SettingSource source(machine, job);
@@ -84,7 +86,9 @@ RunSummary RunSinumerik840d(std::shared_ptr<const nc::Program> program,
   const AxisValues start = StartPosition(machine, job, &log);
   AssumeRates(machine, &log);
   // The names of the texts begin with the main program's.
-  SinumerikFlow flow(std::move(program), ToFlowOptions(machine, job, settings), &system, files,
+  SinumerikFlowOptions options = ToFlowOptions(machine, job, settings);
+  options.max_blocks = max_blocks;
+  SinumerikFlow flow(std::move(program), std::move(options), &system, files,
                      [&log](Finding finding) { log.Report(std::move(finding)); });
   RunDataFiles(job, &system, files, &log);
   ToMotion to_motion(machine, &frames, ToMotionOptions(), start, sink, &log, &summary);

@@ -47,7 +47,7 @@ bool SinumerikFlow::State::Assign(const Part& part, SinumerikStep* out) {
   if (address || nc::SameName(part.name, "AX") || system->IsAxis(nc::UpperName(part.name))) {
     return AddValuedWord(part, out);
   }
-  if (macros.count(nc::UpperName(part.name)) != 0) {
+  if (macros.IsNamedOnly(part.name)) {
     Unsupported(part.column, "the macro " + std::string(part.name) + " was not simulated");
     return false;
   }

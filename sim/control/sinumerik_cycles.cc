@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cycles of the SINUMERIK (NC programming 12/2019, "Programming cycles externally").
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -13,6 +14,11 @@
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::control {
+namespace {
+
+constexpr double kStandardFactor = 10.0;  // SD55441 to SD55444, standard value.
+
+}  // namespace
 
 void SinumerikInterpreter::ExecuteCycle(const nc::SinumerikCommand& cycle,
                                         std::span<const nc::SinumerikValue> values,
@@ -33,19 +39,51 @@ void SinumerikInterpreter::ExecuteCycle(const nc::SinumerikCommand& cycle,
 }
 
 /// CYCLE832(tolerance, type[, orientation tolerance]): units of the type 0 switch it off; tens 1:
-/// the third parameter is the tolerance of the orientation, deg (p. 1108). Without parameters: off.
+/// the third parameter is the tolerance of the orientation, deg; else it is the contour's, in mm,
+/// times SD55441 to SD55444 (p. 1108). Without parameters: off.
 void SinumerikInterpreter::HighSpeedSettings(const SinumerikCycleArguments& arguments,
                                              const SourcePosition& where) {
   contour_tolerance_ = orientation_tolerance_ = 0.0;
+  factor_name_ = {};
   const long type = arguments.Whole("_TOLM");
-  if (!arguments.given("_TOL") || type % 10 == 0) return;
+  const long units = type % 10;
+  if (type / 100 % 10 != 0) {
+    Unsupported("the hundreds of CYCLE832's type", where, "older software switches TRAORI by them");
+  }
+  if (!arguments.given("_TOL") || units == 0) return;
   contour_tolerance_ = std::max(0.0, arguments.Length("_TOL"));
   if (type / 10 % 10 == 1 && arguments.given("_OTOL")) {
     orientation_tolerance_ = std::max(0.0, Radians(arguments.Number("_OTOL")));
-  } else if (traori_) {
-    Unsupported("CYCLE832 without an orientation tolerance under TRAORI", where,
-                "SD55441 to SD55443 make it from the contour's");
+    return;
   }
+  constexpr std::array<const char*, 5> kFactors = {"", "SD55443", "SD55442", "SD55441", "SD55444"};
+  if (units < 0 || units >= static_cast<long>(kFactors.size())) {
+    Unsupported("CYCLE832 of a type that it does not have", where);
+    return;
+  }
+  const auto index = static_cast<std::size_t>(units);
+  const std::optional<double>& stated = settings_.tolerance_factors[index];
+  factor_name_ = kFactors[index];
+  factor_ = stated.value_or(kStandardFactor);
+  factor_stated_ = stated.has_value();
+  orientation_tolerance_ = std::max(0.0, Radians(contour_tolerance_ * factor_));
+}
+
+/// Under TRAORI the tool leans by an orientation tolerance that a factor has made.
+void SinumerikInterpreter::CheckToleranceFactor() {
+  if (!traori_ || factor_name_.empty()) return;
+  const std::string name(factor_name_);
+  if (!(factor_ > 0.0)) {
+    Unsupported("CYCLE832 with " + name + " = 0 under TRAORI", step_->where,
+                "the tolerance of the rotary axes (MD33100) is not known");
+  } else if (!factor_stated_) {
+    log_.Assume(name,
+                Short(factor_) +
+                    ": deg of CYCLE832's orientation tolerance for each mm of its "
+                    "contour tolerance",
+                false);
+  }
+  factor_name_ = {};
 }
 
 /// "" or what in force keeps a drilling cycle from being simulated.

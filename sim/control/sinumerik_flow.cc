@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/sinumerik_flow.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sim/control/sinumerik_flow_state.h"
@@ -148,7 +149,7 @@ void SinumerikFlow::State::Step(SinumerikStep* out) {
 bool SinumerikFlow::State::ReadBlock() {
   ++blocks;
   const nc::TextPosition at = level().next;
-  nc::ParseSinumerikBlock(*level().text->program, at.offset, at.line, &block);
+  ParseBlock(at);
   ReleasePages();
   if (block.has_header && (level().started || level().kind != LevelKind::kMain)) {
     EndOfText();
@@ -165,6 +166,33 @@ bool SinumerikFlow::State::ReadBlock() {
   if (block.parts.empty()) return false;
   level().started = true;
   return true;
+}
+
+SinumerikMacros::Scope SinumerikFlow::State::MacroScope() const {
+  std::size_t owner = levels.size() - 1;
+  while (owner > 0 && levels[owner].kind == LevelKind::kSection) --owner;
+  return {levels[owner].text, levels[owner].start.offset};
+}
+
+/// Where macros stand in the line their text is parsed instead; columns are those of their names.
+void SinumerikFlow::State::ParseBlock(nc::TextPosition at) {
+  const nc::Program& program = *level().text->program;
+  nc::ParseSinumerikBlock(program, at.offset, at.line, &block);
+  const auto macro = macros.Expand(MacroScope(), program.Line(at.offset));
+  if (!macro) return;
+  const std::size_t next = block.next;
+  expanded = nc::Program::FromText(program.name(), macro->line);
+  nc::ParseSinumerikBlock(*expanded, expanded->begin(), at.line, &block);
+  block.offset = at.offset;
+  block.next = next;
+  const auto place = [&](int* column) {
+    const auto index = static_cast<std::size_t>(std::max(1, *column) - 1);
+    *column = macro->columns[std::min(index, macro->columns.size() - 1)];
+  };
+  for (nc::SinumerikPart& part : block.parts) place(&part.column);
+  for (nc::SinumerikTarget& target : block.targets) place(&target.column);
+  for (nc::SinumerikCode& code : block.code) place(&code.column);
+  for (nc::SyntaxError& error : block.errors) place(&error.column);
 }
 
 void SinumerikFlow::State::ReleasePages() {
@@ -185,6 +213,9 @@ void SinumerikFlow::State::Execute(SinumerikStep* out) {
   out->where = Here(1);
   out->sequence = block.sequence;
   out->skip_level = block.skip_level;
+  out->in_subprogram = std::any_of(levels.begin(), levels.end(), [](const Level& level_) {
+    return level_.kind == LevelKind::kSubprogram;
+  });
   out->comment = block.comment;
   for (std::size_t i = 0; i < block.parts.size(); ++i) {
     if (!ExecutePart(&i, out)) break;
@@ -277,8 +308,9 @@ void SinumerikFlow::State::ReportUnsimulated(const Part& part) {
   if (part.kind == PartKind::kSynchronous) {
     return Unsupported(part.column, "the synchronised action (" + name + ") was not simulated");
   }
-  if (name == "DEFINE" && block.parts.size() > 1) {
-    macros.insert(nc::UpperName(block.parts[1].name));
+  if (name == "DEFINE" && block.parts.size() > 1 &&
+      macros.Define(MacroScope(), level().text->program->Line(block.offset), block.parts[1].name)) {
+    return;
   }
   Unsupported(part.column, name + " was not simulated");
 }

@@ -52,9 +52,10 @@ struct SinumerikModalCall {
 
 /// A block to execute.
 struct SinumerikStep {
-  SourcePosition where;  ///< Column 1 of the block.
-  long sequence = -1;    ///< N.
-  int skip_level = -1;   ///< `/`: the flow has already left out what the switches say.
+  SourcePosition where;        ///< Column 1 of the block.
+  long sequence = -1;          ///< N.
+  int skip_level = -1;         ///< `/`: the flow has already left out what the switches say.
+  bool in_subprogram = false;  ///< M2 and M30 return from it.
   std::vector<SinumerikItem> items;
   std::vector<nc::SinumerikValue> values;
   std::string_view comment;
@@ -92,9 +93,12 @@ class SinumerikSystem {
   virtual void AssumeZero(const std::string& name) = 0;
 };
 
+/// A run is stopped after this many blocks: a loop that does not end.
+inline constexpr std::uint64_t kMaxSinumerikBlocks = 50'000'000;
+
 struct SinumerikFlowOptions {
   unsigned skip_levels = 0;  ///< Bit n: the operator skips `/n`.
-  std::uint64_t max_blocks = 50'000'000;
+  std::uint64_t max_blocks = kMaxSinumerikBlocks;
   std::size_t r_parameters = 1000;  ///< MD28050.
   std::vector<std::string> subprogram_folders;
 };

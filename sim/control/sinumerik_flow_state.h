@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sim/control/sinumerik_flow.h"
+#include "sim/control/sinumerik_macros.h"
 #include "sim/control/sinumerik_programs.h"
 #include "sim/control/sinumerik_variables.h"
 
@@ -66,6 +67,7 @@ struct SinumerikFlow::State final : nc::SinumerikReader {
   bool ExecuteWordPart(const Part& part, SinumerikStep* out);
   bool Condition(const Part& part, bool* holds);
   bool EvaluateAt(nc::SinumerikExpression expression, Value* value);
+  void ParseBlock(nc::TextPosition at);
   void ReportSyntax();
   void ReportUnsimulated(const Part& part);
   void ReleasePages();
@@ -138,6 +140,7 @@ struct SinumerikFlow::State final : nc::SinumerikReader {
   void ReportMissing(std::string_view name, int column);
 
   Level& level() { return levels.back(); }
+  SinumerikMacros::Scope MacroScope() const;
   SourcePosition Here(int column) { return {level().text->file, block.line, column}; }
   /// Returns false, to be returned.
   bool Alarm(int column, std::string message);
@@ -156,7 +159,8 @@ struct SinumerikFlow::State final : nc::SinumerikReader {
   Pending pending;
   std::deque<SinumerikEvent> events;
   SinumerikModalCall modal;
-  std::set<std::string, std::less<>> macros;     ///< Of DEFINE, upper case.
+  SinumerikMacros macros;
+  std::shared_ptr<const nc::Program> expanded;   ///< The block, where macros stood in it.
   std::shared_ptr<SinumerikVariable> last_read;  ///< What ReadName() found last.
   std::size_t last_offset = 0;
   std::optional<std::size_t> loop_back;  ///< Offset of the FOR that its ENDFOR goes back to.

@@ -136,10 +136,35 @@ TEST(SinumerikFlowTest, WhatIsNotSimulatedIsNamed) {
   EXPECT_EQ(run.trace, "X1|");  // None of its words is left to the block.
 }
 
-TEST(SinumerikFlowTest, AMacroIsNamedWhereItIsUsed) {
-  SinumerikTestRun run("DEFINE GOHOME AS G0 X0\nX1\nGOHOME\nX=GOHOME\n");
-  ASSERT_EQ(run.findings.size(), 3u);
-  for (const Finding& finding : run.findings) EXPECT_EQ(finding.rule, Rule::kUnsupportedCode);
+TEST(SinumerikFlowTest, MacrosStandForTheirText) {
+  // NC programming 12/2019, "Macro technique": names, M functions, parts of expressions; not in
+  // strings and comments, and only in the program that defines them.
+  SinumerikTestRun run(
+      "DEFINE GOHOME AS G0 X0 ; home\nDEFINE M6 AS L6\nDEFINE _DEC2 AS MOD 100 DIV 10\n"
+      "GOHOME Y1 ; GOHOME\nR1=1234 _DEC2\nMSG(\"GOHOME\")\nX=R1 M6\nM60\nM30\n"
+      "%_N_L6_SPF\nZ1\nGOHOME\nM17\n");
+  EXPECT_EQ(run.Value("R1"), 3.0);
+  EXPECT_EQ(run.trace.substr(0, run.trace.find("Z1")), "G0 X0 Y1|MSG(GOHOME)|X=3|") << run.trace;
+  ASSERT_FALSE(run.findings.empty());
+  EXPECT_EQ(run.findings[0].where.line, 12);
+}
+
+TEST(SinumerikFlowTest, FindingsInAMacroStandWhereItsNameDoes) {
+  SinumerikTestRun run("DEFINE GOHOME AS G0 X0 Y=NOTHING\nX1\nZ1 GOHOME Z2\n");
+  EXPECT_EQ(run.First(), "3:4 12550");
+}
+
+TEST(SinumerikFlowTest, AMacroThatIsNotSimulatedIsNamedWhereItIsUsed) {
+  // What is looked up in the text itself, and macros of macros.
+  for (const char* name : {"G0", "R1", "TRANS", "X1"}) {
+    EXPECT_FALSE(SinumerikTestRun(std::string("DEFINE ") + name + " AS G1\n").findings.empty());
+  }
+  for (const char* body : {"WHILE R1<2", "LA: X1", "OTHER X1", "DEF REAL AA", "ROUND_X"}) {
+    SinumerikTestRun run(std::string("DEFINE OTHER AS G0\nDEFINE ROUND_X AS ") + body +
+                         "\nX1\nROUND_X\nX=ROUND_X\n");
+    ASSERT_GE(run.findings.size(), 2u) << body;
+    for (const Finding& finding : run.findings) EXPECT_EQ(finding.rule, Rule::kUnsupportedCode);
+  }
 }
 
 }  // namespace

@@ -23,16 +23,25 @@ bool IsIdentity(const Eigen::Matrix3d& linear) {
 
 }  // namespace
 
-bool SinumerikInterpreter::Programmable::is_zero() const {
-  return IsIdentity(linear) && shift.isZero(0.0) && rotary == std::array<double, 3>{};
-}
-
 void SinumerikInterpreter::SelectOffset(int index) {
   modal_.offset = std::max(0, index);
   modal_.settable = parts_.registers->frame(modal_.offset);
   cancelled_.clear();
   new_frame_ = true;
   frame_dirty_ = true;
+}
+
+/// $P_PFRAME = ...: at once.
+void SinumerikInterpreter::SetProgramFrame(const AffineFrame& frame) {
+  modal_.program = frame;
+  new_frame_ = frame_dirty_ = true;
+}
+
+/// $P_IFRAME = ...: likewise, without a change of what $P_UIFR keeps.
+void SinumerikInterpreter::SetActiveSettable(const SettableFrame& frame) {
+  modal_.settable = frame;
+  cancelled_.clear();
+  new_frame_ = frame_dirty_ = true;
 }
 
 /// TRAORI and TRAFOOF move nothing; the frame goes by MD10602, the tool length is taken over.
@@ -44,6 +53,7 @@ void SinumerikInterpreter::CancelFrame(bool traori, const SourcePosition& where)
   if (!Is(kSinComp, "G40")) {
     Unsupported("TRAORI or TRAFOOF under G41 or G42", where);
   }
+  if (tool_frame()) Unsupported("TRAORI or TRAFOOF under TOROT", where);
   if (swivel_.active) Unsupported("TRAORI while CYCLE800 is active", where);
   swivel_ = {};
   std::string cancelled;
@@ -70,22 +80,23 @@ void SinumerikInterpreter::CancelFrame(bool traori, const SourcePosition& where)
 }
 
 Frame SinumerikInterpreter::MakeFrame() const {
-  const Programmable& program = modal_.program;
+  const AffineFrame& program = modal_.program;
   const Eigen::Matrix3d settable = modal_.settable.Linear();
   Frame frame;
   frame.offset = modal_.settable.shift();
   frame.offset_index =
       parts_.part_frames->Index(SinumerikRegisters::FrameName(modal_.offset), frame.offset);
   for (std::size_t i = 0; i < 3; ++i) frame.offset[kA + i] += program.rotary[i];
-  frame.program.linear = settable * swivel_.plane.rotation * program.linear;
-  frame.program.to = settable * (swivel_.plane.origin + swivel_.plane.rotation * program.shift);
+  const Eigen::Matrix3d inner = swivel_.plane.rotation * modal_.tool_turn;
+  frame.program.linear = settable * inner * program.linear;
+  frame.program.to = settable * (swivel_.plane.origin + inner * program.shift);
   if (swivel_.active) {
     const ProgramFrame turned = parts_.frames->OnTable(frame.offset, swivel_.tables);
     frame.program.to = turned.to + turned.linear * frame.program.to;
     frame.program.linear = turned.linear * frame.program.linear;
   }
   frame.program.active = !IsIdentity(frame.program.linear) || !frame.program.to.isZero(0.0);
-  frame.tool_length = active_.length;
+  ApplyLength(&frame, active_.length);
   if (traori_) frame.rotation = Frame::Rotation::kTcp;
   return frame;
 }
@@ -96,7 +107,7 @@ Frame SinumerikInterpreter::SuppressedFrame() const {
   frame.offset_index = parts_.part_frames->Index(SinumerikRegisters::FrameName(0), frame.offset);
   const bool without_length = (settings_.suppress_length & 1) != 0 &&
                               ((settings_.suppress_length & 2) == 0 || !edge_in_block_);
-  frame.tool_length = without_length ? 0.0 : active_.length;
+  ApplyLength(&frame, without_length ? 0.0 : active_.length);
   if (traori_) frame.rotation = Frame::Rotation::kTcp;
   return frame;
 }
@@ -113,11 +124,14 @@ void SinumerikInterpreter::UseFrame(const Frame& frame) {
 /// it goes the shift as well.
 void SinumerikInterpreter::RefreshFrame() {
   const AxisValues before = position_;
+  const Eigen::Matrix3d linear = frame_->program.linear;
   UseFrame(MakeFrame());
+  const bool turned = linear != frame_->program.linear;
   const bool carries = (new_frame_ && settings_.incremental_frame) ||
                        (new_length_ && !new_frame_ && settings_.incremental_tool);
   for (std::size_t axis = 0; axis < kNumAxes && carries; ++axis) {
     carry_[axis] += before[axis] - position_[axis];
+    carry_turned_[axis] = carry_turned_[axis] || turned;
   }
   if (swivel_.active && !IsIdentity(modal_.settable.Linear())) {
     Unsupported("a turned work offset while CYCLE800 is active", step_->where);
@@ -125,8 +139,33 @@ void SinumerikInterpreter::RefreshFrame() {
   if (frame_->offset_index >= kMaxPartFrames) {
     log_.Alarm(Rule::kUnsupportedCode, step_->where, "too many different work offsets in one run");
   }
+  if (traori_ && frame_->program.linear.determinant() < 0.0) {
+    Unsupported("mirroring under TRAORI", step_->where);
+  }
   if (new_frame_) offset_checked_ = false;
   frame_dirty_ = new_frame_ = new_length_ = false;
+}
+
+/// TOROT, TOROTZ: Z along the tool, about the zero of the settable frame. Where X and Y then point
+/// is another matter (SD42980), and asked for where they are programmed.
+void SinumerikInterpreter::TurnToTool() {
+  tool_frame_due_ = false;
+  if (Is(kSinToolFrame, "TOROTOF")) {
+    modal_.tool_turn.setIdentity();
+  } else if (!traori_) {
+    return Unsupported("TOROT without TRAORI", step_->where);
+  } else {
+    AxisValues machine = position_;
+    for (std::size_t i = kA; i < kNumAxes; ++i) machine[i] += frame_->offset[i];
+    Eigen::Vector3d p_B, u_B;
+    parts_.frames->five_axis().TipInTable(axes_.Joints(machine), 0.0, &p_B, &u_B);
+    const Eigen::Vector3d u = parts_.frames->InTable(frame_).inverse * u_B;
+    const Eigen::Vector3d in_settable = modal_.tool_turn * modal_.program.linear * u;
+    modal_.tool_turn =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), in_settable.normalized())
+            .toRotationMatrix();
+  }
+  RefreshFrame();
 }
 
 /// TRANS, ROT, SCALE, MIRROR delete what was programmed before; the A forms add to it.
@@ -141,9 +180,6 @@ void SinumerikInterpreter::ExecuteFrameStatement(const SinumerikItem& item) {
   if (name == "SCALE") Scale();
   if (name == "MIRROR") Mirror();
   if (log_.stopped()) return;
-  if (traori_ && modal_.program.linear.determinant() < 0.0) {
-    Unsupported("MIRROR under TRAORI", Where(item));
-  }
   new_frame_ = frame_dirty_ = true;
   RefreshFrame();
 }

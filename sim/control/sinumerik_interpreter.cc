@@ -14,9 +14,10 @@ namespace {
 
 using nc::Support;
 
-// mm: what G642 to G645 and the compressors may leave the path by where nobody states it
+// mm, deg: what G642 to G645 and the compressors may leave the path by where nobody states it
 // (MD33100, standard value).
 constexpr double kStandardTolerance = 0.05;
+constexpr double kStandardOrientation = Radians(0.05);
 
 ContourOptions CompensationOptions() {
   ContourOptions options;
@@ -24,6 +25,13 @@ ContourOptions CompensationOptions() {
   options.fanuc_corners = false;  // G450: an arc about an outside corner.
   options.corner_names = {"RND=", "CHR=", "CHF="};
   return options;
+}
+
+/// What F counts: it must be programmed anew where that changes (NC programming 12/2019, "Feed").
+Command::FeedMode FeedType(const nc::SinumerikCommand* code) {
+  if (code->name == "G93") return Command::FeedMode::kInverseTime;
+  const bool revolution = code->name == "G95" || code->name == "G96" || code->name == "G97";
+  return revolution ? Command::FeedMode::kPerRevolution : Command::FeedMode::kPerMinute;
 }
 
 }  // namespace
@@ -57,6 +65,11 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
   for (const auto& [group, code] : settings_.start_codes) {
     const nc::SinumerikCommand* row = nc::FindSinumerikCommand(code);
     if (row == nullptr || row->group != group) continue;
+    // What A2, B2, C2 mean is asked for where they stand.
+    if (row->support == Support::kUnsupported && group != kSinOrientationAngles) {
+      log_.Assume("MD20150[" + std::to_string(group - 1) + "]",
+                  code + " is active at the start and was not simulated", true);
+    }
     modal_.codes[static_cast<std::size_t>(group)] = row;
     if (group == kSinOffset) SelectOffset(std::max(0, OffsetIndex(code)));
   }
@@ -119,6 +132,7 @@ void SinumerikInterpreter::Execute(SinumerikStep* step) {
   step_ = step;
   statement_ = nullptr;
   suppress_ = nullptr;
+  tool_frame_due_ = false;
   moved_ = feed_in_block_ = edge_in_block_ = exact_stop_here_ = has_codes_ = false;
   if (step->skip_level >= 0) {
     log_.Assume("block skip", "off: blocks with / are executed where no level is switched on",
@@ -127,9 +141,12 @@ void SinumerikInterpreter::Execute(SinumerikStep* step) {
   ApplyCodes();
   if (!log_.stopped()) ApplyTechnology();
   if (!log_.stopped()) ApplyM(false);
+  // Of the tool that M6 has brought.
+  if (SinumerikItem* d = log_.stopped() ? nullptr : Peek("D")) ApplyEdge(d);
   if (!log_.stopped()) ExecuteCalls();
   if (log_.stopped()) return;
   if (frame_dirty_) RefreshFrame();
+  if (tool_frame_due_) TurnToTool();
   UpdatePrototype();
   if (statement_ != nullptr) {
     statement_->command->group == kSinFrame ? ExecuteFrameStatement(*statement_)
@@ -152,6 +169,7 @@ void SinumerikInterpreter::Restore() {
   if (saved_.empty()) return;
   modal_ = std::move(saved_.back());
   saved_.pop_back();
+  if (modal_.offset != 0 || !modal_.program.is_zero()) cancelled_.clear();
   UpdateModes();
   new_frame_ = true;
   frame_dirty_ = true;
@@ -195,8 +213,11 @@ void SinumerikInterpreter::ApplyCode(SinumerikItem* item) {
     case kSinOffset:
       SelectOffset(OffsetIndex(nc::UpperName(item->name)));
       break;
+    case kSinToolFrame:
+      tool_frame_due_ = true;
+      break;
     case kSinFeedMode:
-      if (modal_.codes[group] != code) feed_word_ = 0.0;
+      if (FeedType(modal_.codes[group]) != FeedType(code)) feed_word_ = 0.0;
       break;
     default:
       break;
@@ -220,8 +241,15 @@ void SinumerikInterpreter::UpdateModes() {
             : Is(kSinMotion, "G3")  ? MotionMode::kCounterClockwise
             : Is(kSinMotion, "CIP") ? MotionMode::kThroughPoint
             : Is(kSinMotion, "CT")  ? MotionMode::kTangent
-                                    : MotionMode::kLine;
+            : Is(kSinMotion, "G33") || Is(kSinMotion, "G331") || Is(kSinMotion, "G332")
+                ? MotionMode::kThread
+                : MotionMode::kLine;
   plane_ = Is(kSinPlane, "G18") ? Plane::kZX : Is(kSinPlane, "G19") ? Plane::kYZ : Plane::kXY;
+  if (LengthAxis() != length_axis_) {
+    length_axis_ = LengthAxis();
+    length_checked_ = false;
+    if (active_.length != 0.0) frame_dirty_ = new_length_ = true;
+  }
   incremental_ = Is(kSinDistance, "G91");
   mm_ = Is(kSinUnits, "G70") || Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
   feed_mm_ = Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
@@ -235,11 +263,9 @@ void SinumerikInterpreter::UpdatePrototype() {
   command_.full_circle = false;
   command_.arc_normal.setZero();
   command_.corner_radius = command_.corner_chamfer = command_.corner_chamfer_length = 0.0;
-  const bool inverse = Is(kSinFeedMode, "G93");
-  const bool revolution = Is(kSinFeedMode, "G95") || Is(kSinFeedMode, "G97");
-  command_.feed_mode = inverse      ? Command::FeedMode::kInverseTime
-                       : revolution ? Command::FeedMode::kPerRevolution
-                                    : Command::FeedMode::kPerMinute;
+  command_.feed_mode = FeedType(modal_.codes[kSinFeedMode]);
+  const bool inverse = command_.feed_mode == Command::FeedMode::kInverseTime;
+  const bool revolution = command_.feed_mode == Command::FeedMode::kPerRevolution;
   command_.feed = feed_word_ / 60.0;
   if (!inverse) command_.feed *= feed_mm_;
   if (revolution) command_.feed *= rpm_;
@@ -256,6 +282,7 @@ void SinumerikInterpreter::UpdatePrototype() {
                                         : Command::Comp::kOff;
   command_.comp_radius = active_.radius;
   UpdateTolerance();
+  CheckToleranceFactor();
 }
 
 /// How far smoothing may leave path and orientation: by CYCLE832, else by what is programmed.
@@ -265,17 +292,11 @@ void SinumerikInterpreter::UpdateTolerance() {
   const bool compresses = !Is(kSinCompressor, "COMPOF");
   command_.exact_stop = stops && !smooths && !compresses;
   command_.corner_rounding = contour_tolerance_;
-  command_.orientation_tolerance = smooths ? orientation_tolerance_ : otol_.value_or(0.0);
-  if (traori_ && command_.orientation_tolerance > 0.0) {
-    // Bodies are not widened by what the tool may lean.
-    log_.Assume("orientation tolerance",
-                "the tool axis is taken as programmed; smoothing may turn it by up to " +
-                    Short(Degrees(command_.orientation_tolerance), 3) + " deg",
-                true);
-  }
+  // SD42466: only with an orientation transformation.
+  command_.orientation_tolerance = traori_ && smooths ? orientation_tolerance_ : 0.0;
   if (smooths || command_.exact_stop) return;
   if (Is(kSinExactStop, "G641") && !compresses) {
-    command_.corner_rounding = adis_.value_or(0.0);
+    command_.corner_rounding = (motion_ == MotionMode::kRapid ? adispos_ : adis_).value_or(0.0);
     return;
   }
   if (Is(kSinExactStop, "G64") && !compresses) return;
@@ -286,9 +307,18 @@ void SinumerikInterpreter::UpdateTolerance() {
                     " mm: G642 to G645 and compressors leave the path by no more (MD33100)",
                 false);
   }
+  if (!traori_) return;
+  command_.orientation_tolerance = otol_.value_or(kStandardOrientation);
+  if (!otol_) {
+    log_.Assume(
+        "orientation tolerance",
+        Short(Degrees(kStandardOrientation), 3) +
+            " deg: G642 to G645 and compressors turn the tool by no more (SD42466, SD42476)",
+        false);
+  }
 }
 
-/// S, F, T, D and the words of smoothing.
+/// S, F, T and the words of smoothing.
 void SinumerikInterpreter::ApplyTechnology() {
   const bool dwell = statement_ != nullptr && statement_->command->name == "G4";
   for (const std::string_view name : {std::string_view("S"), std::string_view("S1")}) {
@@ -307,7 +337,6 @@ void SinumerikInterpreter::ApplyTechnology() {
   }
   if (SinumerikItem* t = Peek("T")) ApplyToolWord(t);
   if (log_.stopped()) return;
-  if (SinumerikItem* d = Peek("D")) ApplyEdge(d);
   const auto number = [&](std::string_view name, double unit, std::optional<double>* value) {
     if (Peek(name) == nullptr) return;
     const SinumerikItem* item = Take(name);
@@ -318,7 +347,7 @@ void SinumerikInterpreter::ApplyTechnology() {
   number("CTOL", mm_, &ctol_);
   number("OTOL", kPi / 180.0, &otol_);
   number("ADIS", mm_, &adis_);
-  if (Peek("ADISPOS") != nullptr) Take("ADISPOS");
+  number("ADISPOS", mm_, &adispos_);
   for (const std::string_view name : {"SPOS", "SPOSA"}) {
     if (Peek(name) != nullptr && Take(name) != nullptr) spindle_ = 0;
   }
@@ -344,11 +373,13 @@ void SinumerikInterpreter::ExecuteM(int code, const SinumerikItem& item) {
       if (settings_.optional_stop) contour_.Flush();
       return;
     case 0:
-    case 2:
     case 17:
+      contour_.Flush();
+      return;
+    case 2:
     case 30:
       contour_.Flush();
-      if (code != 17) spindle_ = 0;
+      if (!step_->in_subprogram) spindle_ = 0;
       return;
     case 3:
     case 4:
@@ -367,7 +398,11 @@ void SinumerikInterpreter::ExecuteM(int code, const SinumerikItem& item) {
   const bool known = row != nullptr && row->support != Support::kUnsupported;
   const bool quiet =
       std::find(motionless_m_.begin(), motionless_m_.end(), code) != motionless_m_.end();
-  if (!known && !quiet) Unsupported(name, Where(item));
+  if (known || quiet) return;
+  Unsupported(name, Where(item),
+              row == nullptr ? "it is the machine builder's; if it moves nothing, name it in the "
+                               "job's m_codes_without_motion"
+                             : std::string(row->meaning));
 }
 
 void SinumerikInterpreter::ExecuteCalls() {

@@ -3,7 +3,7 @@
 // the programmed position; sends commands through the contour stage to ToMotion. NC programming
 // 12/2019; machine data by number.
 //
-// Order within a block: G codes, S F T D, tool change, predefined subprograms, frame; then a
+// Order within a block: G codes, S F T, tool change, D, predefined subprograms, frame; then a
 // statement that gives the words another meaning (TRANS, G4 ...), or motion; M0 to M30 at the end.
 #pragma once
 
@@ -52,6 +52,7 @@ enum SinumerikGroup {
   kSinCompressor = 30,
   kSinOrientationAngles = 50,
   kSinOrientationPath = 51,
+  kSinToolFrame = 53,
   kSinRapid = 55,
   kNumSinGroups = 65
 };
@@ -99,21 +100,33 @@ class SinumerikInterpreter {
   int spindle() const { return spindle_; }
   bool transforms() const { return traori_; }
   int settable_frame() const { return modal_.offset; }
+  /// mm of a unit of lengths in system variables (NC programming 12/2019, "G70, G71, G700, G710").
+  double system_unit() const { return feed_mm_; }
+  double tool_length() const { return active_.length; }
+  const AffineFrame& program_frame() const { return modal_.program; }
+  bool swivels() const { return swivel_.active; }
+  bool tool_frame() const { return modal_.tool_turn != Eigen::Matrix3d::Identity(); }
+  const SettableFrame& active_settable() const { return modal_.settable; }
+  void SetProgramFrame(const AffineFrame& frame);
+  void SetActiveSettable(const SettableFrame& frame);
 
  private:
-  /// The programmable frame: X, Y, Z by an affine frame, rotary axes by a shift.
-  struct Programmable {
-    Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-    std::array<double, 3> rotary{};
-    bool is_zero() const;
-  };
   /// What SAVE keeps.
   struct Modal {
     std::array<const nc::SinumerikCommand*, kNumSinGroups> codes{};
-    int offset = 0;          ///< Of $P_UIFR.
-    SettableFrame settable;  ///< As it was when it was selected.
-    Programmable program;
+    int offset = 0;                                           ///< Of $P_UIFR.
+    SettableFrame settable;                                   ///< As it was when it was selected.
+    Eigen::Matrix3d tool_turn = Eigen::Matrix3d::Identity();  ///< TOROT: before `program`.
+    AffineFrame program;
+  };
+  enum class MotionMode {
+    kRapid,
+    kLine,
+    kThread,
+    kClockwise,
+    kCounterClockwise,
+    kThroughPoint,
+    kTangent
   };
   /// What CYCLE800 has laid between work offset and programmable frame.
   struct SwivelState {
@@ -121,7 +134,6 @@ class SinumerikInterpreter {
     SwivelPlane plane;    ///< In the coordinates of the work offset, rotary axes at 0.
     AxisValues tables{};  ///< Machine values of the rotary axes; the frame does not follow them.
   };
-  enum class MotionMode { kRapid, kLine, kClockwise, kCounterClockwise, kThroughPoint, kTangent };
 
   // sinumerik_interpreter.cc: blocks and modal state
   void ApplyCodes();
@@ -149,6 +161,7 @@ class SinumerikInterpreter {
   Frame MakeFrame() const;
   Frame SuppressedFrame() const;
   void RefreshFrame();
+  void TurnToTool();
   void UseFrame(const Frame& frame);
   void ExecuteFrameStatement(const SinumerikItem& item);
   void Translate();
@@ -164,18 +177,23 @@ class SinumerikInterpreter {
   void SelectEdge(int edge, const SourcePosition& where);
   void ChangeTool(const SourcePosition& where);
   void CheckToolLength();
+  int LengthAxis() const;
+  void ApplyLength(Frame* frame, double length) const;
 
   // sinumerik_motion.cc
   void ExecuteAction(const SinumerikItem& item);
   void Dwell();
   void MachinePoint(const SinumerikItem& item);
   void ExecuteMotion();
+  void PositionAxis();
   bool TakeTargets(AxisValues* end, unsigned* named);
   bool LinearTarget(int axis, const SinumerikItem& item, double* value);
   bool RotaryTarget(int axis, const SinumerikItem& item, double* value);
   bool ModuloTarget(int axis, const SinumerikItem& item, double* value);
   bool TakePolar(AxisValues* end, unsigned* named);
+  void TakePole(SinumerikArcWords* words);
   bool TakeArcWords(SinumerikArcWords* words);
+  bool TakePitch();
   bool CheckFeed();
   void Move(const AxisValues& end, unsigned named);
   bool TakeCorner();
@@ -188,6 +206,13 @@ class SinumerikInterpreter {
   bool TakeOrientation(AxisValues* end, unsigned* named);
   std::optional<Eigen::Vector3d> TakeToolAxis();
   bool Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named);
+  bool WithinLimits(const Eigen::Vector3d& u_B, const std::array<double, 2>& from, bool led,
+                    std::array<double, 2>* reached);
+  std::array<double, 2> RotaryJoints(AxisValues values) const;
+  void SetRotary(const std::array<double, 2>& joints, AxisValues* end) const;
+  Eigen::Vector3d InTable(const Eigen::Vector3d& axis);
+  void PassPole();
+  void TurnAtPole(const std::array<double, 2>& start);
   bool vector_path() const;
   std::string_view WrapNote() const;
 
@@ -211,6 +236,7 @@ class SinumerikInterpreter {
 
   // sinumerik_cycles.cc
   void HighSpeedSettings(const SinumerikCycleArguments& arguments, const SourcePosition& where);
+  void CheckToleranceFactor();
   std::string CannotDrill() const;
   void Drill(const SinumerikCycleArguments& arguments, const SourcePosition& where);
   void MakePattern(const SinumerikCycleArguments& arguments, const SourcePosition& where);
@@ -240,11 +266,13 @@ class SinumerikInterpreter {
   std::shared_ptr<const Frame> frame_;
   bool frame_dirty_ = false;
   bool new_frame_ = false, new_length_ = false;  ///< What made it so.
+  bool tool_frame_due_ = false;                  ///< TOROT stands in the block.
   bool traori_ = false;
   std::string
       cancelled_;  ///< The frame that TRAORI or TRAFOOF cancelled, and nobody selected again.
   AxisValues position_{};  ///< Programmed position, program coordinates of frame_.
   AxisValues carry_{};     ///< What the next incremental move of an axis goes beside its own way.
+  std::array<bool, kNumAxes> carry_turned_{};  ///< And the frame has turned since.
   Eigen::Vector2d pole_ = Eigen::Vector2d::Zero();
   Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();  ///< At the end of the last motion.
   Command command_;                                    ///< Carries the modal facts; reused.
@@ -253,8 +281,12 @@ class SinumerikInterpreter {
   int spindle_ = 0;
   int tool_ = 0, next_tool_ = -1, edge_ = 0;
   EdgeData active_;
+  int length_axis_ = kZ;                                          ///< Along which length 1 counts.
   double contour_tolerance_ = 0.0, orientation_tolerance_ = 0.0;  ///< CYCLE832. mm, rad.
-  std::optional<double> ctol_, otol_, adis_;
+  std::string_view factor_name_;  ///< SD5544n that made it; "" where it was said or is none.
+  double factor_ = 0.0;           ///< deg a mm.
+  bool factor_stated_ = false;
+  std::optional<double> ctol_, otol_, adis_, adispos_;
   std::vector<AxisValues> holes_;  ///< Of a pattern, still to be gone to; the next one last.
   SourcePosition holes_where_;
   int cycle_count_ = 0;

@@ -96,7 +96,41 @@ void SinumerikInterpreter::PushMachine(CommandKind kind, unsigned named, const A
   contour_.SetPosition(position_);
 }
 
+/// POS[X]=10 [FA[X]=500], alone in its block: a line. More axes would go each at its own rate; what
+/// stands beside it is left over, and said.
+void SinumerikInterpreter::PositionAxis() {
+  SinumerikItem* item = Peek("POS");
+  item->used = true;
+  const bool indexed = item->value_count == 1 && !item->is_text;
+  const std::string name = indexed ? step_->values[item->first_value].text : "";
+  const std::size_t i = name.size() == 1 ? kLetters.find(name[0]) : kLetters.npos;
+  if (i >= kNumAxes || !axes_.has(static_cast<int>(i))) {
+    return Unsupported("POS", Where(*item), "it names no axis of this machine");
+  }
+  if (traori_) return Unsupported("POS under TRAORI", Where(*item));
+  const int axis = static_cast<int>(i);
+  AxisValues end = position_;
+  if (!(axes_.data(axis).rotary ? RotaryTarget(axis, *item, &end[i])
+                                : LinearTarget(axis, *item, &end[i]))) {
+    return;
+  }
+  carry_[i] = 0.0;
+  if (axis <= kZ) BeforeLinearMotion();
+  if (log_.stopped()) return;
+  const SinumerikItem* feed = Peek("FA") == nullptr ? nullptr : Take("FA");
+  command_.kind = feed != nullptr && feed->value > 0.0 ? CommandKind::kFeed : CommandKind::kRapid;
+  if (command_.kind == CommandKind::kFeed) {
+    command_.feed_mode = Command::FeedMode::kPerMinute;
+    command_.feed = feed->value * feed_mm_ / 60.0;
+  }
+  command_.end = end;
+  command_.named = static_cast<std::uint8_t>(1U << axis);
+  Push();
+  moved_ = false;  // No path motion: a modal call does not follow it.
+}
+
 void SinumerikInterpreter::ExecuteMotion() {
+  if (Peek("POS") != nullptr) return PositionAxis();
   const bool suppressed = suppress_ != nullptr;
   if (suppressed) {
     if (!Is(kSinComp, "G40")) Unsupported(suppress_->name, step_->where, "with G41 or G42 active");
@@ -110,9 +144,17 @@ void SinumerikInterpreter::ExecuteMotion() {
   AxisValues end = position_;
   unsigned named = 0;
   SinumerikArcWords arc;
-  const bool is_arc = motion_ != MotionMode::kRapid && motion_ != MotionMode::kLine;
+  const bool is_line = motion_ == MotionMode::kRapid || motion_ == MotionMode::kLine ||
+                       motion_ == MotionMode::kThread;
+  const bool is_arc = !is_line;
+  if (is_arc) TakePole(&arc);
   const bool go = TakeTargets(&end, &named) && TakePolar(&end, &named) &&
-                  TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc));
+                  TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc)) && TakePitch();
+  constexpr unsigned kAside = 1U << kX | 1U << kY;
+  if (tool_frame() && !suppressed && ((named & kAside) != 0 || is_arc)) {
+    Unsupported("X, Y or an arc under TOROT", step_->where,
+                "where X points is not known (SD42980)");
+  }
   const bool has_arc_words =
       is_arc && (arc.centre[0] || arc.centre[1] || arc.centre[2] || arc.angle);
   if (go && (named != 0 || has_arc_words)) {
@@ -141,6 +183,7 @@ bool SinumerikInterpreter::TakeTargets(AxisValues* end, unsigned* named) {
     }
     (*end)[i] = value;
     carry_[i] = 0.0;
+    carry_turned_[i] = false;
     *named |= 1U << axis;
   }
   return true;
@@ -155,6 +198,10 @@ bool SinumerikInterpreter::LinearTarget(int axis, const SinumerikItem& item, dou
     case Modifier::kNone:
     case Modifier::kAc:
     case Modifier::kIc:
+      if (adds && carry_turned_[i] && carry_[i] != 0.0) {
+        Unsupported("an incremental move behind a turn of the frame", Where(item),
+                    "whether it goes from the old or the new coordinates is not known");
+      }
       *value = adds ? position_[i] + carry_[i] + programmed : programmed;
       return true;
     case Modifier::kDc:
@@ -249,6 +296,37 @@ bool SinumerikInterpreter::TakePolar(AxisValues* end, unsigned* named) {
   return true;
 }
 
+/// G2 or G3 with AP= or RP= and no centre goes about the pole.
+void SinumerikInterpreter::TakePole(SinumerikArcWords* words) {
+  const bool circle = motion_ == MotionMode::kClockwise || motion_ == MotionMode::kCounterClockwise;
+  if (!circle || (Peek("AP") == nullptr && Peek("RP") == nullptr)) return;
+  for (const std::string_view name : {"I", "J", "K", "CR", "AR"}) {
+    if (Peek(name) != nullptr) return;
+  }
+  const PlaneAxes plane = AxesOf(plane_);
+  words->centre[static_cast<std::size_t>(plane.first)] = pole_.x();
+  words->centre[static_cast<std::size_t>(plane.second)] = pole_.y();
+}
+
+/// G33, G331, G332: the pitch I, J, K of the thread times the spindle's speed is the feed. With
+/// G331 and G332 the control turns the spindle itself; a negative pitch turns it the other way.
+bool SinumerikInterpreter::TakePitch() {
+  if (motion_ != MotionMode::kThread) return true;
+  double pitch = 0.0;
+  for (const std::string_view letter : {"I", "J", "K"}) {
+    if (Peek(letter) == nullptr) continue;
+    const SinumerikItem* item = Take(letter);
+    if (item == nullptr) return false;
+    pitch = std::max(pitch, std::abs(item->value * mm_));
+  }
+  const bool rigid = !Is(kSinMotion, "G33");
+  command_.feed_mode = Command::FeedMode::kPerRevolution;
+  command_.feed = pitch * rpm_ / 60.0;
+  command_.spindle_on = rpm_ > 0.0 && (rigid || spindle_ != 0);
+  command_.exact_stop = true;
+  return true;
+}
+
 bool SinumerikInterpreter::TakeArcWords(SinumerikArcWords* words) {
   words->clockwise = motion_ == MotionMode::kClockwise;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -290,7 +368,12 @@ bool SinumerikInterpreter::CheckFeed() {
   if (command_.feed > 0.0 && (!inverse || feed_in_block_)) return true;
   std::string message = "a feed move without F (alarm 10860)";
   if (inverse) message = "G93 needs F in every block that feeds (alarm 10860)";
-  if (feed_word_ > 0.0 && !inverse) message = "feed per revolution with the spindle speed 0";
+  if (motion_ == MotionMode::kThread) {
+    message =
+        std::string(modal_.codes[kSinMotion]->name) + " needs a pitch I, J or K and a speed S";
+  } else if (feed_word_ > 0.0 && !inverse) {
+    message = "feed per revolution with the spindle speed 0";
+  }
   log_.Alarm(Rule::kFeedMissing, step_->where, std::move(message));
   return false;
 }
@@ -331,6 +414,10 @@ void SinumerikInterpreter::MoveOnArc(const SinumerikArcWords& words) {
     }
   }
   const AxisValues start = position_;
+  const bool led = traori_ && command_.orientation == Orientation::kVector;
+  if (turns > 0.0 && led && RotaryJoints(start) != RotaryJoints(command_.end)) {
+    Unsupported("TURN= while the tool vector turns", step_->where);
+  }
   const std::string error = MakeSinumerikArc(
       start, words, {settings_.circle_error, settings_.circle_error_factor}, &command_);
   if (!error.empty()) {
@@ -386,14 +473,16 @@ bool SinumerikInterpreter::CheckArcFrame() {
 
 void SinumerikInterpreter::Push() {
   const bool compensates = command_.comp != Command::Comp::kOff;
+  if (compensates && edge_ == 0) {
+    Alarm(step_->where, 10750, "G41 or G42 without an edge D");
+    return;
+  }
   if (compensates && (traori_ || plane_ != Plane::kXY)) {
     Unsupported("G41 or G42 outside G17, or under TRAORI", step_->where);
     command_.comp = Command::Comp::kOff;
   }
-  if (plane_ != Plane::kXY && active_.length != 0.0) {
-    Unsupported("G18 or G19 with a tool length", step_->where,
-                "the control turns the length to the plane's normal");
-  }
+  if (traori_ && command_.orientation == Orientation::kVector) PassPole();
+  if (log_.stopped()) return;
   contour_.Push(command_);
   position_ = command_.end;
   moved_ = true;

@@ -3,7 +3,9 @@
 // number. Machine values are worked out by hand from G54 X10 Y20 Z-250 and T1 of 100 mm.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/control/sinumerik_test_machine.h"
 
@@ -191,6 +193,15 @@ TEST(SinumerikFrames, TransAndRotMoveTheAxesTogether) {
   EXPECT_EQ(EndOf(run, 4), "X13 Y21 Z-248 B0 C0");
 }
 
+TEST(SinumerikFrames, AnIncrementalMoveBehindATurnIsSaid) {
+  // SD42440 = 1 speaks of offsets only. Not where the axis stands in the zero, nor behind TRANS.
+  EXPECT_TRUE(SinumerikTest().Run(Head("X10\nAROT Z30\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+  EXPECT_FALSE(SinumerikTest().Run(Head("AROT Z30\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+  EXPECT_FALSE(
+      SinumerikTest().Run(Head("X10\nAROT Z30\nX0 Y0\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+  EXPECT_FALSE(SinumerikTest().Run(Head("X10\nATRANS X3\nG91 X5\n")).Has(Rule::kUnsupportedCode));
+}
+
 TEST(SinumerikFrames, MirrorAndScaleChangeArcs) {
   const TestRun run =
       SinumerikTest().Run(Head("MIRROR X0\nASCALE X2 Y2 Z2\nG2 F100 X10 Y10 I10 J0\n"));
@@ -232,6 +243,169 @@ TEST(SinumerikFrames, PolarCoordinates) {
   EXPECT_EQ(EndOf(run, 4), "X20 Y25 Z-100 B0 C0") << run.Text();
   EXPECT_EQ(EndOf(run, 5), "X15 Y20 Z-100 B0 C0");
   EXPECT_EQ(EndOf(run, 7), "X18 Y20 Z-100 B0 C0");
+}
+
+TEST(SinumerikMotion, SaveBringsBackGCodesAndFrame) {
+  // Manual, "Subprograms with SAVE"; M30 in a subprogram returns as M17 does and stops no spindle,
+  // nor does M0.
+  const std::string sub = "M30\n%_N_SUB_SPF\nPROC SUB SAVE\nG91 G0 TRANS X100\nG55 G70\nM30\n";
+  const TestRun run = SinumerikTest().Run(Head("S100 M3\nG1 F100\nSUB\nX5\nM0\nX6\n") + sub);
+  EXPECT_FALSE(run.Has(Rule::kControlAlarm)) << run.Text();
+  EXPECT_EQ(EndOf(run, 6), "X15 Y20 Z-100 B0 C0");
+  EXPECT_EQ(run.Last(6).kind, motion::MotionKind::kFeed);
+  EXPECT_TRUE(run.Last(6).facts.spindle_on);
+  EXPECT_TRUE(run.Last(8).facts.spindle_on);
+  // Without SAVE all of it stays: G0, G91, inches, the frame.
+  std::string plain = sub;
+  plain.erase(plain.find(" SAVE"), 5);
+  const TestRun kept = SinumerikTest().Run(Head("S100 M3\nG1 F100\nSUB\nX1\n") + plain);
+  EXPECT_EQ(kept.Last(6).kind, motion::MotionKind::kRapid) << kept.Text();
+}
+
+TEST(SinumerikMotion, CompensationNeedsAnEdge) {
+  // Alarm 10750.
+  const TestRun run = SinumerikTest().Run(Head("D0 G1 F100 G41 X5 Y5\nX20\nG40 X30\n"));
+  EXPECT_NE(run.Text().find("10750"), std::string::npos) << run.Text();
+}
+
+TEST(SinumerikMotion, CirclesAboutThePole) {
+  // Manual, "Circular interpolation with polar coordinates": the pole is the centre.
+  const TestRun run = SinumerikTest().Run(Head("G111 X10 Y0\nG3 F100 RP=10 AP=270\n"));
+  ASSERT_EQ(run.motions.size(), 2u) << run.Text();
+  const auto& arc = std::get<motion::AxisArc>(run.motions[1].path);
+  EXPECT_NEAR(arc.sweep, kPi / 2.0, 1e-9);
+  EXPECT_NEAR(arc.q1[kJointX], 20.0, 1e-9);
+  EXPECT_NEAR(arc.q1[kJointY], 10.0, 1e-9);
+}
+
+TEST(SinumerikMotion, ThreadsFeedByPitchAndSpeed) {
+  // Manual, "Rigid tapping": 600 / min of 1.5 mm are 15 mm/s.
+  const TestRun run = SinumerikTest().Run(Head("S600 SPOS=0\nG331 Z20 K1.5\nG332 Z50 K1.5\n"));
+  ASSERT_EQ(run.motions.size(), 3u) << run.Text();
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_NEAR(run.motions[1].duration, 2.0, 1e-9);
+  EXPECT_TRUE(run.motions[1].facts.spindle_on);
+  EXPECT_EQ(EndOf(run, 5), "X10 Y20 Z-100 B0 C0");
+  EXPECT_TRUE(SinumerikTest().Run(Head("G331 Z20 K1.5\n")).Has(Rule::kFeedMissing));
+  EXPECT_TRUE(SinumerikTest().Run(Head("S600\nG331 Z20\n")).Has(Rule::kFeedMissing));
+}
+
+TEST(SinumerikMotion, PositionsOneAxisInABlock) {
+  // Manual, "Positioning axes": with FA a feed of its own, under any G code of motion.
+  const TestRun run = SinumerikTest().Run(Head("G3\nPOS[X]=5 FA[X]=600\nPOS[C]=DC(350)\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(run.Last(4).kind, motion::MotionKind::kFeed);
+  EXPECT_NEAR(run.Last(4).duration, 0.5, 1e-9);
+  EXPECT_EQ(EndOf(run, 5), "X15 Y20 Z-100 B0 C-10");
+  // It is no path motion: a modal call (here of a cycle that is not simulated) does not follow it.
+  EXPECT_FALSE(
+      SinumerikTest().Run(Head("MCALL CYCLE61(1)\nPOS[X]=5\nMCALL\n")).Has(Rule::kUnsupportedCode));
+  for (const char* block : {"POS[X]=5 POS[Y]=1", "POS[X]=1 Y2", "POSA[X]=1"}) {
+    EXPECT_TRUE(SinumerikTest().Run(Head(std::string(block) + "\n")).Has(Rule::kUnsupportedCode));
+  }
+}
+
+TEST(SinumerikMotion, FIsProgrammedAnewWhereItsKindChanges) {
+  // Manual, "Feedrate": G94, G971 and G961 count minutes, G95 to G97 revolutions.
+  const std::string head = Head("S1000 M3 G95 G1 X1 F.1\n");
+  EXPECT_FALSE(SinumerikTest().Run(head + "G97 X2\n").Has(Rule::kFeedMissing));
+  EXPECT_TRUE(SinumerikTest().Run(head + "G94 X2\n").Has(Rule::kFeedMissing));
+}
+
+TEST(SinumerikMotion, MachineDataSayHowItStarts) {
+  // MD20730 = 0: G0 of each axis for itself until RTLION; what is not simulated is an assumption
+  // that keeps the verdict from pass (MD20150, MD30330).
+  SinumerikTest control;
+  control.job.control = {{"MD20730", "0"}, {"MD20150[14]", "G96"}, {"MD30330[C]", "720"}};
+  const TestRun run = control.Run("G54 D0 G0 X50 Y10\nRTLION X0 Y0\n");
+  const auto middle = [&run](int line) {
+    const motion::JointVector at = run.Last(line).At(0.5);
+    return std::pair(at[kJointX], at[kJointY]);
+  };
+  EXPECT_NEAR(middle(1).second, 30.0, 1e-9) << run.Text();  // Y is there already.
+  EXPECT_NEAR(middle(2).first - 10.0, 5.0 * (middle(2).second - 20.0), 1e-9);
+  for (const char* name : {"MD20150[14]", "MD30330[C]"}) {
+    EXPECT_TRUE(std::any_of(run.summary.assumptions.begin(), run.summary.assumptions.end(),
+                            [&](const Assumption& a) { return a.name == name && a.places_metal; }))
+        << name;
+  }
+}
+
+TEST(SinumerikMotion, SmoothingLeavesRapidsToo) {
+  // Manual, "Continuous-path mode": G641 takes ADISPOS for G0.
+  const TestRun run =
+      SinumerikTest().Run(Head("G641 ADIS=.5 ADISPOS=2\nX5\nG1 F100 X6\nG60 G0 X7\n"));
+  EXPECT_NEAR(run.Last(4).facts.corner_rounding, 2.0, 1e-12) << run.Text();
+  EXPECT_NEAR(run.Last(5).facts.corner_rounding, 0.5, 1e-12);
+  EXPECT_EQ(run.Last(6).facts.corner_rounding, 0.0);
+}
+
+TEST(SinumerikFrames, VariablesOfActiveFrames) {
+  // Manual, "Frame variables": $P_PFRAME and $P_IFRAME act at once, a chain from the left;
+  // $P_UIFR when it is selected.
+  SinumerikTest control;
+  TestRun run =
+      control.Run(Head("$P_PFRAME=CTRANS(X,100):CROT(Z,90)\nG0 X10 Y0\n"
+                       "$P_PFRAME=$P_PFRAME:CTRANS(X,5)\nX10\n$P_PFRAME[X,TR]=7\nX0 Y0\n"
+                       "R1=$P_ACTFRAME[X,TR]+$P_PFRAME[Z,RT]\nTRANS\nX=R1\n"));
+  EXPECT_EQ(EndOf(run, 4), "X110 Y30 Z-100 B0 C0") << run.Text();
+  EXPECT_EQ(EndOf(run, 6), "X110 Y35 Z-100 B0 C0");
+  // The chain comes to a shift of 100, 5 and a turn of 90: then X is 7.
+  EXPECT_EQ(EndOf(run, 8), "X17 Y25 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 11), "X" + Short(10.0 + 17.0 + 90.0) + " Y25 Z-100 B0 C0");
+  run =
+      control.Run(Head("$P_IFRAME=CTRANS(X,1,Y,2,Z,-250)\nG0 X0 Y0\nG54 X0\n"
+                       "$P_UIFR[2]=CTRANS(X,1):CTRANS(X,2,Z,-250):CROT(Z,90)\nG55 X5 Y0\n"));
+  EXPECT_EQ(EndOf(run, 4), "X1 Y2 Z-100 B0 C0") << run.Text();
+  EXPECT_EQ(EndOf(run, 5), "X10 Y2 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 7), "X3 Y5 Z-100 B0 C0");
+  run = control.Run(Head("$P_UIFR[2]=CROT(Z,30):CSCALE(X,2):CROT(Z,30)\n"));
+  EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << run.Text();
+  run = control.Run(Head("$P_UIFR[2,X,SC]=0\n"));
+  EXPECT_TRUE(run.Has(Rule::kControlAlarm)) << run.Text();
+}
+
+TEST(SinumerikFrames, SystemVariablesAreInInchesUnderG700) {
+  // Manual, "G70, G71, G700, G710".
+  const TestRun run = SinumerikTest().Run(Head(
+      "G700\n$P_UIFR[1,X,TR]=1\n$TC_DP3[1,1]=1\nR1=$P_UIFR[1,X,TR]\nG710 G54 D1 G0 X=R1 Z0\n"));
+  EXPECT_EQ(EndOf(run, 7), "X26.4 Y20 Z-224.6 B0 C0") << run.Text();
+}
+
+TEST(SinumerikTools, TheEdgeInTheBlockOfM6IsOneOfTheNewTool) {
+  // Manual, "Tool change with M6": T2 has D1 (150 mm) and here D2 (140 mm), T1 has D1 only.
+  SinumerikTest control;
+  const TestRun run =
+      control.Run("$TC_DP3[2,2]=140 $TC_DP6[2,2]=3\nT2 D2 M6\nG54 G0 Z0\nT1 M6 D0\nZ0\n");
+  EXPECT_FALSE(run.Has(Rule::kControlAlarm)) << run.Text();
+  EXPECT_EQ(EndOf(run, 3), "X0 Y0 Z-110 B0 C0");
+  EXPECT_EQ(EndOf(run, 5), "X0 Y0 Z-250 B0 C0");
+}
+
+TEST(SinumerikTools, AToolThatNobodyStatesHasAnyEdge) {
+  SinumerikTest control;
+  const std::string text = "G54 G0 Z50 D3\n";
+  EXPECT_NE(control.Run(text).Text().find("17180"), std::string::npos);
+  control.tools.tools[0].assumed = "length 100 mm";
+  const TestRun run = control.Run(text);
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 1), "X0 Y0 Z-100 B0 C0");
+}
+
+TEST(SinumerikTools, LengthGoesByThePlane) {
+  // SD42940: 0, length 1 counts along the normal of the plane; 17, always along Z.
+  SinumerikTest control;
+  const std::string text = Head("G18 Z50\nY0\n");
+  TestRun run = control.Run(text);
+  EXPECT_EQ(EndOf(run, 3), "X10 Y20 Z-200 B0 C0") << run.Text();
+  EXPECT_EQ(EndOf(run, 4), "X10 Y120 Z-200 B0 C0");
+  ASSERT_TRUE(run.Has(Rule::kToolLength));
+  EXPECT_NE(run.Find(Rule::kToolLength)->message.find("SD42940 = 17"), std::string::npos);
+  EXPECT_EQ(run.Find(Rule::kToolLength)->where.line, 3);
+  control.job.control["SD42940"] = "17";
+  run = control.Run(text);
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 4), "X10 Y20 Z-100 B0 C0");
 }
 
 TEST(SinumerikTools, ByNameAndByNumber) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/sinumerik_registers.h"
 
-#include <Eigen/Geometry>
-
 #include "sim/control/part_frames.h"
 
 namespace ncsim::control {
@@ -12,30 +10,6 @@ constexpr int kLength = 3, kRadius = 6, kLengthWear = 12, kRadiusWear = 15;  // 
 constexpr int kFirstExtended = 5;                                            // G505 is $P_UIFR[5]
 
 }  // namespace
-
-AxisValues SettableFrame::shift() const {
-  AxisValues sum = coarse;
-  for (std::size_t i = 0; i < kNumAxes; ++i) sum[i] += fine[i];
-  return sum;
-}
-
-Eigen::Matrix3d SinumerikRotation(const std::array<double, 3>& angles) {
-  using Eigen::AngleAxisd;
-  using Eigen::Vector3d;
-  if (angles == std::array<double, 3>{}) return Eigen::Matrix3d::Identity();
-  return (AngleAxisd(angles[2], Vector3d::UnitZ()) * AngleAxisd(angles[1], Vector3d::UnitY()) *
-          AngleAxisd(angles[0], Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
-Eigen::Matrix3d SettableFrame::Linear() const {
-  Eigen::Matrix3d linear = SinumerikRotation(turn);
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t axis = static_cast<std::size_t>(i);
-    linear.col(i) *= mirror[axis] ? -scale[axis] : scale[axis];
-  }
-  return linear;
-}
 
 SinumerikRegisters::SinumerikRegisters(const machine::Machine& machine, const machine::Job& job,
                                        const machine::ToolTable& tools) {

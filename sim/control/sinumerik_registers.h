@@ -2,7 +2,6 @@
 // What a SINUMERIK keeps: settable frames ($P_UIFR) and the edges of tools ($TC_DP). mm, rad.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -11,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/control/command.h"
+#include "sim/control/sinumerik_frame.h"
 #include "sim/machine/job.h"
 #include "sim/machine/machine.h"
 #include "sim/machine/tool.h"
@@ -20,24 +19,6 @@ namespace ncsim::control {
 
 /// G500, G54 ... G57, G505 ... G599: indices 0 ... 99 of $P_UIFR.
 inline constexpr int kNumSettableFrames = 100;
-
-/// Within a frame an axis is shifted (coarse and fine), then turned, scaled, mirrored.
-struct SettableFrame {
-  AxisValues coarse{};
-  AxisValues fine{};
-  std::array<double, 3> turn{};  ///< rad, about X, Y, Z.
-  std::array<double, 3> scale{1.0, 1.0, 1.0};
-  std::array<bool, 3> mirror{};
-  bool stated = true;  ///< False: the shift is assumed.
-
-  AxisValues shift() const;
-  /// Rotation, scaling and mirroring.
-  Eigen::Matrix3d Linear() const;
-};
-
-/// The rotation of ROT X Y Z and of frames, angles in rad: about Z, the new Y, the new X (MD10600 =
-/// 1). With one angle there is no order.
-Eigen::Matrix3d SinumerikRotation(const std::array<double, 3>& angles);
 
 struct EdgeData {
   double length = 0.0;  ///< $TC_DP3 + $TC_DP12.

@@ -63,7 +63,7 @@ bool SinumerikFlow::State::ReadName(std::string_view name, const std::vector<Val
       return true;
     }
   }
-  if (macros.count(nc::UpperName(name)) != 0) {
+  if (macros.IsNamedOnly(name)) {
     fault->unsupported = true;
     return Fault(fault, "the macro " + std::string(name) + " was not simulated");
   }
@@ -246,7 +246,7 @@ bool SinumerikFlow::State::AddName(const Part& part, SinumerikStep* out) {
   const SinumerikCommand* command = nc::FindSinumerikCommand(part.name);
   if (command == nullptr || command->kind == SinumerikCommandKind::kMCode ||
       (command->kind == SinumerikCommandKind::kAddress && part.kind == PartKind::kCall)) {
-    if (macros.count(nc::UpperName(part.name)) == 0) return CallSubprogram(part, part.name);
+    if (!macros.IsNamedOnly(part.name)) return CallSubprogram(part, part.name);
     Unsupported(part.column, "the macro " + std::string(part.name) + " was not simulated");
     return false;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/sinumerik_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -36,6 +37,14 @@ int Whole(const SettingSource& source, const std::string& name, int standard) {
   return value ? static_cast<int>(std::lround(*value)) : standard;
 }
 
+/// By the job, or by a model that does not call it nominal.
+bool IsStated(const std::string& name, const SettingSource& source, const machine::Machine& machine,
+              const machine::Job& job) {
+  const auto& nominal = machine.control.nominal_settings;
+  const bool read = std::find(nominal.begin(), nominal.end(), name) == nominal.end();
+  return job.control.count(name) != 0 || (read && source.Text(name).has_value());
+}
+
 void ReadRotary(const SettingSource& source, SinumerikSettings* settings) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string index = std::string("[") + "ABC"[i] + "]";
@@ -57,6 +66,21 @@ void ReadFixedPoints(const SettingSource& source, SinumerikSettings* settings) {
   }
 }
 
+void ReadOrientation(const SettingSource& source, const machine::Machine& machine,
+                     const machine::Job& job, SinumerikSettings* settings) {
+  settings->orientation_euler = Whole(source, "MD21100", 1) == 1;
+  settings->orientation_by_g50 =
+      Whole(source, "MD21102", 0) == 1 || Whole(source, "MD21103", 0) == 1;
+  settings->orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
+  settings->pole_mode = Whole(source, "MD21108", 0);
+  settings->pole_stated = source.Text("MD21108").has_value();
+  if (const auto limit = source.Number("MD24540")) settings->pole_limit = Radians(*limit);
+  settings->limit_mode = Whole(source, "MD21180", 0);
+  settings->limit_mode_stated = IsStated("MD21180", source, machine, job);
+  settings->tolerance_factors = {std::nullopt, source.Number("SD55443"), source.Number("SD55442"),
+                                 source.Number("SD55441"), source.Number("SD55444")};
+}
+
 }  // namespace
 
 SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
@@ -72,7 +96,17 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
     const auto code = source.Text("MD20150[" + std::to_string(group - 1) + "]");
     if (code) settings.start_codes[group] = *code;
   }
+  if (Whole(source, "MD20730", 1) == 0 && job.control.count("MD20150[54]") == 0) {
+    settings.start_codes[55] = "RTLIOF";
+  }
   ReadRotary(source, &settings);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string name = std::string("MD30330[") + "ABC"[i] + "]";
+    constexpr double kTurn = 360.0;
+    if (settings.rotary[i].modulo && source.Number(name).value_or(kTurn) != kTurn) {
+      log->Assume(name, "taken as 360: another modulo range is not simulated", true);
+    }
+  }
   ReadFixedPoints(source, &settings);
   const int frame_mode = Whole(source, "MD10602", 0);
   settings.rpy = Whole(source, "MD10600", 1) == 1;
@@ -82,12 +116,11 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.edge_after_change = Whole(source, "MD20270", 1);
   settings.circle_error = source.Number("MD21000").value_or(settings.circle_error);
   settings.circle_error_factor = source.Number("MD21010").value_or(settings.circle_error_factor);
-  settings.orientation_euler = Whole(source, "MD21100", 1) == 1;
-  settings.orientation_by_g50 = Whole(source, "MD21102", 0) == 1;
-  settings.orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
+  ReadOrientation(source, machine, job, &settings);
   settings.m6_changes = Whole(source, "MD22550", 1) == 1;
   settings.incremental_frame = Whole(source, "SD42440", 1) == 1;
   settings.incremental_tool = Whole(source, "SD42442", 1) == 1;
+  settings.length_plane = Whole(source, "SD42940", 0);
   if (const auto mask = source.Number("SD55221")) {
     settings.swivel_mask = static_cast<unsigned>(std::lround(*mask));
   }

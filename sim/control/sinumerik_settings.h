@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/base/units.h"
 #include "sim/control/command.h"
 #include "sim/control/run_log.h"
 #include "sim/control/setting_source.h"
@@ -36,13 +37,21 @@ struct SinumerikSettings {
   double circle_error = 0.01;              ///< MD21000, mm.
   double circle_error_factor = 0.001;      ///< MD21010.
   bool orientation_euler = true;           ///< MD21100.
-  bool orientation_by_g50 = false;         ///< MD21102: group 50 decides on A2, B2, C2.
+  bool orientation_by_g50 = false;         ///< MD21102, MD21103: group 50 decides on A2, B2, C2.
   bool orientation_by_g51 = true;          ///< MD21104: group 51 decides on the path, not group 25.
-  bool m6_changes = true;                  ///< MD22550.
-  bool incremental_frame = true;           ///< SD42440: G91 goes a new frame's shift too.
-  bool incremental_tool = true;            ///< SD42442: likewise a new tool's length.
-  std::optional<unsigned> swivel_mask;     ///< SD55221.
-  int swivel_reference = 0;  ///< Rotary axis that _DIR refers to, 1 or 2; 0: unstated.
+  int pole_mode = 0;                       ///< MD21108.
+  double pole_limit = 2.0 * kPi / 180.0;   ///< MD24540, rad: about the pole, what MD21108 is for.
+  bool pole_stated = false;                ///< Whether anybody states MD21108.
+  int limit_mode = 0;                      ///< MD21180.
+  bool limit_mode_stated = false;          ///< Not only by a nominal model.
+  /// SD5544n by the units of CYCLE832's type, where anybody states them: deg for each mm.
+  std::array<std::optional<double>, 5> tolerance_factors{};
+  bool m6_changes = true;               ///< MD22550.
+  bool incremental_frame = true;        ///< SD42440: G91 goes a new frame's shift too.
+  bool incremental_tool = true;         ///< SD42442: likewise a new tool's length.
+  int length_plane = 0;                 ///< SD42940: whose plane's axis length 1 counts along.
+  std::optional<unsigned> swivel_mask;  ///< SD55221.
+  int swivel_reference = 0;             ///< Rotary axis that _DIR refers to, 1 or 2; 0: unstated.
   std::array<std::optional<double>, 3> swivel_retract;  ///< $TC_CARR38 to 40: X, Y, Z; mm.
   /// MD30600: machine values of each axis; mm, rad.
   std::array<std::array<std::optional<double>, kNumAxes>, kNumFixedPoints> fixed_points{};

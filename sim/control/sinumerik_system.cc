@@ -12,7 +12,6 @@
 namespace ncsim::control {
 namespace {
 
-using nc::SinumerikFrame;
 using nc::SinumerikValue;
 using Access = SinumerikSystem::Access;
 
@@ -43,53 +42,6 @@ Access Fail(std::string* message, int alarm, std::string text) {
   return Access::kAlarm;
 }
 
-/// mm or rad of a component as programs see it.
-double UnitOf(std::size_t axis) { return axis < kA ? 1.0 : kPi / 180.0; }
-
-SinumerikFrame ToValue(const SettableFrame& frame) {
-  SinumerikFrame::Part part;
-  for (std::size_t i = 0; i < kNumAxes; ++i) {
-    SinumerikFrame::Axis axis;
-    axis.name = kLetters.substr(i, 1);
-    axis.tr = frame.coarse[i] / UnitOf(i);
-    axis.fi = frame.fine[i] / UnitOf(i);
-    if (i < 3) {
-      axis.rt = Degrees(frame.turn[i]);
-      axis.sc = frame.scale[i];
-      axis.mi = frame.mirror[i];
-    }
-    part.push_back(std::move(axis));
-  }
-  return SinumerikFrame{{std::move(part)}};
-}
-
-/// One component; false: there is none of that name for this axis.
-bool SetComponent(SettableFrame* frame, std::size_t i, std::string_view component, double value) {
-  if (component == "TR") {
-    frame->coarse[i] = value * UnitOf(i);
-  } else if (component == "FI") {
-    frame->fine[i] = value * UnitOf(i);
-  } else if (i < 3 && component == "RT") {
-    frame->turn[i] = Radians(value);
-  } else if (i < 3 && component == "SC") {
-    frame->scale[i] = value;
-  } else if (i < 3 && component == "MI") {
-    frame->mirror[i] = value != 0.0;
-  } else {
-    return false;
-  }
-  return true;
-}
-
-double Component(const SettableFrame& frame, std::size_t i, std::string_view component) {
-  if (component == "TR") return frame.coarse[i] / UnitOf(i);
-  if (component == "FI") return frame.fine[i] / UnitOf(i);
-  if (i >= 3) return component == "SC" ? 1.0 : 0.0;
-  if (component == "RT") return Degrees(frame.turn[i]);
-  if (component == "SC") return frame.scale[i];
-  return frame.mirror[i] ? 1.0 : 0.0;
-}
-
 }  // namespace
 
 bool Sinumerik840dSystem::IsAxis(std::string_view name) const {
@@ -109,70 +61,128 @@ int Sinumerik840dSystem::AxisOf(const SinumerikValue& name) const {
   return static_cast<int>(axis);
 }
 
-bool Sinumerik840dSystem::FrameIndex(const Indices& indices, int* index,
-                                     std::string* message) const {
-  const auto number = indices.empty() ? std::nullopt : Whole(indices[0], 0, kNumSettableFrames - 1);
-  if (!number) {
-    *message = nc::AlarmText(17020, "$P_UIFR has the frames 0 to 99");
-    return false;
-  }
-  *index = *number;
-  return true;
+double Sinumerik840dSystem::unit() const {
+  return interpreter_ == nullptr ? 1.0 : interpreter_->system_unit();
 }
 
-Access Sinumerik840dSystem::ReadFrame(const Indices& indices, SinumerikValue* value,
+void Sinumerik840dSystem::AssumeStated(int index, bool stated) {
+  if (stated) return;
+  log_->Assume("offset " + SinumerikRegisters::FrameName(index),
+               "the program reads it and the job does not state it: the middle of the table", true);
+}
+
+/// $P_UIFR[n], $P_IFRAME, $P_PFRAME, $P_ACTFRAME: whole, or with an axis and a component behind.
+Access Sinumerik840dSystem::ReadFrame(std::string_view name, Indices indices, SinumerikValue* value,
                                       std::string* message) {
-  int index = 0;
-  if (!FrameIndex(indices, &index, message)) return Access::kAlarm;
-  const SettableFrame& frame = registers_->frame(index);
-  if (!frame.stated) {
-    log_->Assume("offset " + SinumerikRegisters::FrameName(index),
-                 "the program reads it and the job does not state it: the middle of the table",
-                 true);
+  std::optional<SettableFrame> frame;
+  if (name == "$P_UIFR") {
+    const auto index = TakeFrameIndex(&indices);
+    if (!index) return Fail(message, 17020, "$P_UIFR has the frames 0 to 99");
+    frame = registers_->frame(*index);
+    AssumeStated(*index, frame->stated);
+  } else if (interpreter_ == nullptr) {
+    return Access::kUnknown;
+  } else {
+    const SettableFrame& active = interpreter_->active_settable();
+    AffineFrame whole = interpreter_->program_frame();
+    if (name == "$P_ACTFRAME") whole = Chained(ToAffine(active), whole);
+    const bool turned =
+        name == "$P_ACTFRAME" && (interpreter_->tool_frame() || interpreter_->swivels());
+    if (!turned) frame = name == "$P_IFRAME" ? active : ToSettable(whole);
+    if (name != "$P_PFRAME") AssumeStated(interpreter_->settable_frame(), active.stated);
   }
-  if (indices.size() == 1) {
-    *value = SinumerikValue::Frame(ToValue(frame));
+  if (!frame) {
+    *message = "reading " + std::string(name) +
+               ", which is mirrored, distorted or turned by TOROT or CYCLE800, was not simulated";
+    return Access::kUnknown;
+  }
+  if (indices.empty()) {
+    *value = SinumerikValue::Frame(ToValue(*frame, unit()));
     return Access::kDone;
   }
-  const int axis = AxisOf(indices[1]);
-  if (indices.size() != 3 || axis < 0) return Fail(message, 12080, "$P_UIFR[n, axis, component]");
-  const std::string& component = indices[2].text;
-  *value = SinumerikValue::Real(Component(frame, static_cast<std::size_t>(axis), component));
+  const int axis = AxisOf(indices[0]);
+  if (indices.size() != 2 || axis < 0) {
+    return Fail(message, 12080, std::string(name) + " takes an axis and TR, FI, RT, SC or MI");
+  }
+  *value = SinumerikValue::Real(
+      Component(*frame, static_cast<std::size_t>(axis), indices[1].text, unit()));
   return Access::kDone;
 }
 
-Access Sinumerik840dSystem::WriteFrame(const Indices& indices, const SinumerikValue& value,
-                                       std::string* message) {
-  int index = 0;
-  if (!FrameIndex(indices, &index, message)) return Access::kAlarm;
-  SettableFrame* frame = registers_->MutableFrame(index);
-  if (indices.size() == 3) {
-    const int axis = AxisOf(indices[1]);
-    const bool known =
-        axis >= 0 && value.is_number() &&
-        SetComponent(frame, static_cast<std::size_t>(axis), indices[2].text, value.number);
-    if (!known) return Fail(message, 12080, "$P_UIFR[n, axis, component] needs a number");
-    // A program that sets one axis of an offset that nobody states leaves the others assumed.
-    return Access::kDone;
-  }
-  if (indices.size() != 1 || value.type != nc::SinumerikType::kFrame) {
-    return Fail(message, 12150, "$P_UIFR[n] needs a frame");
-  }
-  if (value.frame != nullptr && value.frame->chain.size() > 1) {
-    *message = "a chain of frames in $P_UIFR was not simulated";
+/// The n of $P_UIFR[n, ...], and takes it out.
+std::optional<int> Sinumerik840dSystem::TakeFrameIndex(Indices* indices) {
+  const auto index =
+      indices->empty() ? std::nullopt : Whole((*indices)[0], 0, kNumSettableFrames - 1);
+  if (index) indices->erase(indices->begin());
+  return index;
+}
+
+Access Sinumerik840dSystem::WriteFrame(std::string_view name, Indices indices,
+                                       const SinumerikValue& value, std::string* message) {
+  SettableFrame* stored = nullptr;
+  if (name == "$P_UIFR") {
+    const auto index = TakeFrameIndex(&indices);
+    if (!index) return Fail(message, 17020, "$P_UIFR has the frames 0 to 99");
+    stored = registers_->MutableFrame(*index);
+  } else if (interpreter_ == nullptr) {
     return Access::kUnknown;
   }
-  *frame = SettableFrame();
-  if (value.frame == nullptr || value.frame->chain.empty()) return Access::kDone;
-  for (const SinumerikFrame::Axis& axis : value.frame->chain.front()) {
-    const int i = AxisOf(SinumerikValue::Axis(axis.name));
-    if (i < 0) continue;
-    const std::size_t at = static_cast<std::size_t>(i);
-    SetComponent(frame, at, "TR", axis.tr);
-    SetComponent(frame, at, "FI", axis.fi);
-    SetComponent(frame, at, "RT", axis.rt);
-    SetComponent(frame, at, "SC", axis.sc);
-    SetComponent(frame, at, "MI", axis.mi ? 1.0 : 0.0);
+  const bool programmed = name == "$P_PFRAME";
+  if (!indices.empty()) return WriteComponent(stored, name, indices, value, message);
+  if (value.type != nc::SinumerikType::kFrame) {
+    return Fail(message, 12150, std::string(name) + " needs a frame");
+  }
+  const std::optional<AffineFrame> affine = ToAffine(value, unit());
+  if (!affine) return Fail(message, 12160, "a frame's factor of scale is above 0");
+  if (programmed) {
+    interpreter_->SetProgramFrame(*affine);
+    return Access::kDone;
+  }
+  const std::optional<SettableFrame> frame = ToSettable(value, unit());
+  if (!frame) {
+    *message = "a chain of frames that mirrors or distorts, in " + std::string(name) +
+               ", was not simulated";
+    return Access::kUnknown;
+  }
+  if (stored == nullptr) {
+    interpreter_->SetActiveSettable(*frame);
+  } else {
+    *stored = *frame;
+  }
+  return Access::kDone;
+}
+
+/// A program that sets one axis of an offset that nobody states leaves the others assumed.
+Access Sinumerik840dSystem::WriteComponent(SettableFrame* stored, std::string_view name,
+                                           const Indices& indices, const SinumerikValue& value,
+                                           std::string* message) {
+  std::optional<SettableFrame> frame;
+  if (stored != nullptr) {
+    frame = *stored;
+  } else if (name == "$P_IFRAME") {
+    frame = interpreter_->active_settable();
+  } else {
+    frame = ToSettable(interpreter_->program_frame());
+  }
+  if (!frame) {
+    *message = "a component of " + std::string(name) +
+               ", which is mirrored or distorted, was not simulated";
+    return Access::kUnknown;
+  }
+  const int axis = indices.size() == 2 ? AxisOf(indices[0]) : -1;
+  const bool known =
+      axis >= 0 && value.is_number() &&
+      SetComponent(&*frame, static_cast<std::size_t>(axis), indices[1].text, value.number, unit());
+  if (!known) {
+    return Fail(message, 12080,
+                std::string(name) + " takes an axis, TR, FI, RT, SC or MI, and a number for it");
+  }
+  if (stored != nullptr) {
+    *stored = *frame;
+  } else if (name == "$P_IFRAME") {
+    interpreter_->SetActiveSettable(*frame);
+  } else {
+    interpreter_->SetProgramFrame(ToAffine(*frame));
   }
   return Access::kDone;
 }
@@ -184,7 +194,7 @@ Access Sinumerik840dSystem::ReadPosition(std::string_view name, const Indices& i
   const std::size_t i = static_cast<std::size_t>(axis);
   const AxisValues at =
       name == "$AA_IM" ? interpreter_->MachinePosition() : interpreter_->program_position();
-  double shown = at[i] / UnitOf(i);
+  double shown = i < kA ? at[i] / unit() : Degrees(at[i]);
   if (i >= kA && settings_->rotary[i - kA].modulo) {
     constexpr double kTurn = 360.0;
     shown -= kTurn * std::floor(shown / kTurn);
@@ -207,9 +217,9 @@ Access Sinumerik840dSystem::ReadState(std::string_view name, const Indices& indi
   if (name == "$P_TOOLNO") return whole(now.tool());
   if (name == "$P_TOOLP") return whole(std::max(0, now.next_tool()));
   if (name == "$P_TOOL") return whole(now.edge());
-  if (name == "$P_TOOLR" || name == "$AC_TOOLR_ACT") return real(now.tool_radius());
+  if (name == "$P_TOOLR" || name == "$AC_TOOLR_ACT") return real(now.tool_radius() / unit());
   if (name == "$P_TOOLL" && indices.size() == 1) {
-    return real(indices[0].number == 1.0 ? now.frame().tool_length : 0.0);
+    return real(indices[0].number == 1.0 ? now.tool_length() / unit() : 0.0);
   }
   if (name == "$P_UIFRNUM") return whole(now.settable_frame());
   if (name == "$P_TRAFO" || name == "$AC_TRAFO") return whole(now.transforms() ? 1 : 0);
@@ -219,14 +229,23 @@ Access Sinumerik840dSystem::ReadState(std::string_view name, const Indices& indi
   return Access::kUnknown;
 }
 
+/// mm of a unit of $TC_DPn: lengths and radii, and their wear and bases.
+double Sinumerik840dSystem::UnitOf(int parameter) const {
+  const bool length = (parameter >= 3 && parameter <= 9) || (parameter >= 12 && parameter <= 18) ||
+                      (parameter >= 21 && parameter <= 23);
+  return length ? unit() : 1.0;
+}
+
 Access Sinumerik840dSystem::Read(std::string_view name, const Indices& indices,
                                  SinumerikValue* value, std::string* message) {
-  if (name == "$P_UIFR") return ReadFrame(indices, value, message);
+  for (const std::string_view frame : {"$P_UIFR", "$P_IFRAME", "$P_PFRAME", "$P_ACTFRAME"}) {
+    if (name == frame) return ReadFrame(name, indices, value, message);
+  }
   if (const auto number = EdgeParameter(name)) {
     if (indices.size() != 2) return Fail(message, 17020, "$TC_DPn[tool, edge]");
     const auto tool = Whole(indices[0], 1, kMaxTool), edge = Whole(indices[1], 1, kMaxEdge);
     if (!tool || !edge) return Fail(message, 17020, "$TC_DPn[tool, edge]");
-    *value = SinumerikValue::Real(registers_->Parameter(*number, *tool, *edge));
+    *value = SinumerikValue::Real(registers_->Parameter(*number, *tool, *edge) / UnitOf(*number));
     return Access::kDone;
   }
   // The program really runs: no simulation, test or block search.
@@ -244,7 +263,9 @@ Access Sinumerik840dSystem::Read(std::string_view name, const Indices& indices,
 
 Access Sinumerik840dSystem::Write(std::string_view name, const Indices& indices,
                                   const SinumerikValue& value, std::string* message) {
-  if (name == "$P_UIFR") return WriteFrame(indices, value, message);
+  for (const std::string_view frame : {"$P_UIFR", "$P_IFRAME", "$P_PFRAME"}) {
+    if (name == frame) return WriteFrame(name, indices, value, message);
+  }
   const auto number = EdgeParameter(name);
   if (!number) return Access::kUnknown;
   const auto tool = indices.size() == 2 ? Whole(indices[0], 1, kMaxTool) : std::nullopt;
@@ -252,7 +273,7 @@ Access Sinumerik840dSystem::Write(std::string_view name, const Indices& indices,
   if (!tool || !edge || !value.is_number()) {
     return Fail(message, 17020, "$TC_DPn[tool, edge] needs a number");
   }
-  registers_->SetParameter(*number, *tool, *edge, value.number);
+  registers_->SetParameter(*number, *tool, *edge, value.number * UnitOf(*number));
   // Lengths 2 and 3, base dimensions and their wear would shift the tip sideways.
   const bool aside = *number == 4 || *number == 5 || *number == 13 || *number == 14 ||
                      (*number >= 21 && *number <= 23);

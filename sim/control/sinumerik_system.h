@@ -2,6 +2,7 @@
 // System variables of the SINUMERIK that programs read and write (List Manual, system variables).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,9 +35,16 @@ class Sinumerik840dSystem : public SinumerikSystem {
   using Indices = std::vector<nc::SinumerikValue>;
   Access ReadState(std::string_view name, const Indices& indices, nc::SinumerikValue* value);
   Access ReadPosition(std::string_view name, const Indices& indices, nc::SinumerikValue* value);
-  Access ReadFrame(const Indices& indices, nc::SinumerikValue* value, std::string* message);
-  Access WriteFrame(const Indices& indices, const nc::SinumerikValue& value, std::string* message);
-  bool FrameIndex(const Indices& indices, int* index, std::string* message) const;
+  Access ReadFrame(std::string_view name, Indices indices, nc::SinumerikValue* value,
+                   std::string* message);
+  Access WriteFrame(std::string_view name, Indices indices, const nc::SinumerikValue& value,
+                    std::string* message);
+  Access WriteComponent(SettableFrame* stored, std::string_view name, const Indices& indices,
+                        const nc::SinumerikValue& value, std::string* message);
+  static std::optional<int> TakeFrameIndex(Indices* indices);
+  void AssumeStated(int index, bool stated);
+  double unit() const;
+  double UnitOf(int parameter) const;
   int AxisOf(const nc::SinumerikValue& name) const;
 
   const machine::Machine* machine_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/base/text.h"
+#include "sim/control/arc.h"
 #include "sim/control/sinumerik_interpreter.h"
 #include "sim/control/tool_change.h"
 #include "sim/nc/sinumerik_token.h"
@@ -58,13 +59,18 @@ void SinumerikInterpreter::ApplyEdge(SinumerikItem* item) {
 
 /// Moves nothing: an axis goes the new length with its next own move.
 void SinumerikInterpreter::SelectEdge(int edge, const SourcePosition& where) {
-  const std::optional<EdgeData> data = parts_.registers->Edge(tool_, edge);
+  std::optional<EdgeData> data = parts_.registers->Edge(tool_, edge);
+  const machine::Tool* tool = parts_.tools->Find(tool_);
+  // A tool that nobody states has whatever edges are asked for.
+  if (!data && tool != nullptr && !tool->assumed.empty()) data = parts_.registers->Edge(tool_, 1);
   edge_ = edge;
   if (!data) {
-    const bool known = parts_.tools->Find(tool_) != nullptr;
+    const bool known = tool != nullptr;
     const std::string name = "T" + std::to_string(tool_);
     if (known) {
-      Alarm(where, 17180, name + " has no edge D" + std::to_string(edge));
+      Alarm(where, 17180,
+            name + " has no edge D" + std::to_string(edge) +
+                ": the job states none, nor does a file of tool offsets");
     } else {
       log_.ReportOnce(name, Rule::kToolMissing, where,
                       nc::AlarmText(17190, name + " is not in the tool table"));
@@ -113,9 +119,43 @@ void SinumerikInterpreter::ChangeTool(const SourcePosition& where) {
   if (known) SelectEdge(tool_ == 0 ? 0 : edge, where);
 }
 
+/// Of a milling tool (SD42940: 0 goes by the active plane, what is not in its table is 17).
+int SinumerikInterpreter::LengthAxis() const {
+  const int plane = std::abs(settings_.length_plane);
+  if (plane == 0) return AxesOf(plane_).normal;
+  if (plane == 18) return kY;
+  return plane == 19 ? kX : kZ;
+}
+
+/// Beside the spindle's direction the length is a mere shift.
+void SinumerikInterpreter::ApplyLength(Frame* frame, double length) const {
+  if (length_axis_ == kZ) {
+    frame->tool_length = length;
+  } else {
+    frame->offset[static_cast<std::size_t>(length_axis_)] += length;
+  }
+}
+
 void SinumerikInterpreter::CheckToolLength() {
   length_checked_ = true;
   if (edge_ == 0) return;
+  if (length_axis_ != kZ && active_.length != 0.0) {
+    const char letter = "XYZ"[length_axis_];
+    if (traori_) {
+      Unsupported("TRAORI with a tool length along " + std::string(1, letter), step_->where);
+    }
+    log_.ReportOnce(
+        std::string("length along ") + letter,
+        MakeFinding(Rule::kToolLength, step_->where,
+                    "the length of D" + std::to_string(edge_) + ", " + Fixed(active_.length, 3) +
+                        " mm, counts along " + letter + " (" +
+                        (settings_.length_plane == 0
+                             ? std::string(letter == 'Y' ? "G18" : "G19") + " with SD42940 = 0"
+                             : "SD42940 = " + std::to_string(settings_.length_plane)) +
+                        ") while the tool stands along Z, which goes that much too "
+                        "deep; SD42940 = 17 keeps it along Z"));
+    return;
+  }
   const machine::Tool* tool = parts_.tools->Find(tool_);
   const double length = active_.length;
   if (tool == nullptr || std::abs(length - tool->length) <= kLengthTolerance) return;

@@ -201,13 +201,15 @@ void ToMotion::Execute(const Command& command) {
     log_->Alarm(Rule::kControlAlarm, command.where, "a position beyond what the control can hold");
     return;
   }
-  if (command.kind == CommandKind::kRapid || command.kind == CommandKind::kMachineRapid) {
-    if (q1 != q_) Rapid(command, q1);
-    return;
-  }
-  if (!command.exact_stop) {
+  const bool rapid =
+      command.kind == CommandKind::kRapid || command.kind == CommandKind::kMachineRapid;
+  if (!command.exact_stop && (!rapid || options_.rounds_rapids)) {
     motion_.facts.corner_rounding = command.corner_rounding;
     motion_.facts.orientation_tolerance = command.orientation_tolerance;
+  }
+  if (rapid) {
+    if (q1 != q_) Rapid(command, q1);
+    return;
   }
   const bool tcp = IsTcp(command);
   if (command.kind == CommandKind::kArc) {

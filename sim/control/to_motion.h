@@ -22,6 +22,8 @@ struct MotionOptions {
   double degree_counts_as = 1.0;  ///< mm: one unit of the feed's length (1 mm, or 25.4 mm).
   /// Rotary axes count for the feed only where no linear axis moves (SINUMERIK: FGROUP).
   bool rotary_follows = false;
+  /// Smoothing leaves the corners of rapids too, and turns the tool there.
+  bool rounds_rapids = false;
   /// A feed that an axis cannot follow takes longer; else the control stops with an alarm.
   bool slows_down = false;
 };

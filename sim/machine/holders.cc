@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holders that ship. Flanges: CAT40 after ANSI/ASME B5.50, BT40 after MAS 403, SK40 after DIN
-// 69871, HSK-A63 after ISO 12164; V-grooves and keyways are filled. Collet chucks: nominal outlines
-// of ER chucks (DIN 6499 nuts), nut and body as one cylinder.
+// Holders that ship. Flanges: CAT40 after ANSI/ASME B5.50, BT40 after MAS 403 (25 mm thick, 2 mm
+// from the gauge line), SK40 after DIN 69871, HSK-A63 after ISO 12164; V-grooves and keyways are
+// filled. Collet chucks: nominal outlines of ER chucks (DIN 6499 nuts), nut and body as one
+// cylinder.
 #include <array>
 #include <string_view>
 
@@ -18,7 +19,7 @@ struct Interface {
   double flange_end;  // gauge line to the flange's lower face
 };
 constexpr std::array<Interface, 4> kInterfaces = {{{"CAT40", 44.45, 3.175, 63.5, 19.05},
-                                                   {"BT40", 44.45, 2.0, 63.0, 25.0},
+                                                   {"BT40", 44.45, 2.0, 63.0, 27.0},
                                                    {"SK40", 44.45, 3.2, 63.55, 19.1},
                                                    {"HSK-A63", 0.0, 0.0, 63.0, 26.0}}};
 
@@ -63,6 +64,11 @@ std::vector<std::string> HolderNames() {
     }
   }
   return names;
+}
+
+std::string AssumedHolder(const std::string& interface) {
+  const std::string name = interface + "-ER32-100";
+  return HolderByName(name) ? name : "CAT40-ER32-100";
 }
 
 }  // namespace ncsim::machine

@@ -119,7 +119,7 @@ const std::vector<RejectCase>& Cases() {
       {"mesh_missing", {"mesh_missing.toml:38:8: error: mesh part.stl is missing: no such file"}},
       {"no_holder_and_too_short_for_the_assumed_one",
        {"no_holder_and_too_short_for_the_assumed_one.toml:12:1: error: T3: flutes (20 mm) and "
-        "holder (100 mm) are longer than the tool (110 mm); the job states no holder, and "
+        "holder (100 mm) are longer than the tool (110 mm); the job states no holder, and one like "
         "CAT40-ER32-100 is assumed"}},
       {"no_schema", {"no_schema.toml:1:1: error: the key 'schema' is missing"}},
       {"no_units", {"no_units.toml:1:1: error: the key 'units' is missing"}},

@@ -72,12 +72,12 @@ std::vector<Frustum> ReadFrusta(const char* key, double unit, TomlTable* table) 
   return frusta;
 }
 
-/// The holder: a name that ships, or frusta. `assumed` says so where the job is silent.
+/// The holder: a name that ships, or frusta. `assumed` names the one where the job is silent.
 std::vector<Frustum> ReadHolder(double unit, TomlTable* table, std::string* assumed) {
   const TomlValue* value = table->Get("holder");
   if (value == nullptr) {
-    *assumed = std::string("holder ") + kDefaultHolder;
-    return *HolderByName(kDefaultHolder);
+    *assumed = AssumedHolder("");
+    return *HolderByName(*assumed);
   }
   if (value->kind != TomlValue::Kind::kString) return ReadFrusta("holder", unit, table);
   if (auto holder = HolderByName(value->text)) return *holder;
@@ -169,13 +169,14 @@ std::optional<Tool> ReadTool(const JobContext& context, TomlTable table) {
   Tool tool;
   std::string wrong = MakeTool(spec, &tool);
   if (!wrong.empty() && !assumed_holder.empty()) {
-    wrong += "; the job states no holder, and " + std::string(kDefaultHolder) + " is assumed";
+    wrong += "; the job states no holder, and one like " + assumed_holder + " is assumed";
   }
   if (!wrong.empty()) {
     table.ErrorAt(table.value(), "T" + std::to_string(spec.number) + ": " + wrong);
     return std::nullopt;
   }
-  if (!assumed_holder.empty()) Append(assumed_holder, &tool.assumed);
+  if (!assumed_holder.empty()) Append("holder " + assumed_holder, &tool.assumed);
+  tool.assumed_holder = assumed_holder;
   if (table.value().Find("shank") == nullptr && !tool.shank.empty()) {
     Append("shank as wide as the flutes' end, up to the holder", &tool.assumed);
   }

@@ -38,6 +38,11 @@ const std::vector<Setting>& SettingsOf(std::string_view dialect) {
   return dialect == "sinumerik-840d" ? sinumerik : none;
 }
 
+LimitAlarms LimitAlarmsOf(std::string_view dialect) {
+  if (dialect == "sinumerik-840d") return {"10720", "10620"};
+  return {};
+}
+
 std::optional<std::string> NormaliseSetting(const Setting& setting, const TomlTable& table,
                                             const TomlValue& value, double mm_per_unit) {
   const bool is_text = value.kind == TomlValue::Kind::kString;

@@ -30,6 +30,13 @@ std::vector<std::string> Dialects();
 /// dialect.
 const std::vector<Setting>& SettingsOf(std::string_view dialect);
 
+/// The numbers of a control's alarms at a software limit: of a block that ends behind it, and of
+/// one that reaches it on its way; "" where the control has none.
+struct LimitAlarms {
+  std::string_view end, way;
+};
+LimitAlarms LimitAlarmsOf(std::string_view dialect);
+
 /// The value of one setting as text: words and switches ("on", "off") as the table spells them,
 /// whatever their case; lengths in mm, angles in degrees, numbers with at most six decimals.
 /// nullopt (reported) when the value makes no sense. `mm_per_unit` scales lengths.

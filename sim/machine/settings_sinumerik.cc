@@ -55,10 +55,13 @@ std::vector<Setting> SinumerikSettings() {
   whole("MD21094", 0, 9999);             // ORIPATH_MODE
   whole("MD21100", 0, 1);                // ORIENTATION_IS_EULER
   whole("MD21102", 0, 1);                // ORI_DEF_WITH_G_CODE
+  whole("MD21103", 0, 1);                // ORI_ANGLE_WITH_G_CODE
   whole("MD21104", 0, 1);                // ORI_IPO_WITH_G_CODE
+  whole("MD21108", 0, 19999);            // POLE_ORI_MODE
   whole("MD21180", 0, 999);              // ROT_AX_SWL_CHECK_MODE
   whole("MD22550", 0, 1);                // TOOL_CHANGE_MODE
   whole("MD24100", 16, 72);              // TRAFO_TYPE_1
+  add("MD24540", SettingKind::kAngle);   // TRAFO5_POLE_LIMIT_1
   for (const char axis : {'A', 'B', 'C'}) {
     const std::string index = std::string("[") + axis + "]";
     whole("MD30310" + index, 0, 1);               // ROT_IS_MODULO
@@ -70,10 +73,11 @@ std::vector<Setting> SinumerikSettings() {
     for (const char axis : {'X', 'Y', 'Z'}) add(name + axis + "]", SettingKind::kLength);
     for (const char axis : {'A', 'B', 'C'}) add(name + axis + "]", SettingKind::kAngle);
   }
-  whole("SD42440", 0, 1);                                  // FRAME_OFFSET_INCR_PROG
-  whole("SD42442", 0, 1);                                  // TOOL_OFFSET_INCR_PROG
-  whole("SD55221", 0, kMask);                              // FUNCTION_MASK_SWIVEL_SET
-  for (const int number : {55440, 55441, 55442, 55443}) {  // MILL_TOL_FACTOR_...
+  whole("SD42440", 0, 1);                                         // FRAME_OFFSET_INCR_PROG
+  whole("SD42442", 0, 1);                                         // TOOL_OFFSET_INCR_PROG
+  whole("SD42940", -19, 19);                                      // TOOL_LENGTH_CONST
+  whole("SD55221", 0, kMask);                                     // FUNCTION_MASK_SWIVEL_SET
+  for (const int number : {55440, 55441, 55442, 55443, 55444}) {  // MILL_TOL_FACTOR_...
     add("SD" + std::to_string(number), SettingKind::kNumber);
   }
   // Of the swivel data record: where CYCLE800 retracts to, and the rotary axis that _DIR means.

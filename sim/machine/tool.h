@@ -55,6 +55,8 @@ struct Tool {
   std::vector<ToolEdge> edges;
   /// Non-empty: shape or length were assumed or read from the program's header; why, in words.
   std::string assumed;
+  /// Name of the holder, where a job's tool states none; it is in `assumed`, too.
+  std::string assumed_holder;
 };
 
 struct ToolTable {

@@ -208,12 +208,13 @@ constexpr double kAssumedDiameter = 12.0;
 constexpr double kAssumedLength = 180.0;
 constexpr double kLeastStickOut = 5.0;
 
-/// The named holder, or the longest that leaves room for flutes; `used` says which. Empty where
+/// The assumed holder, or a shorter one that leaves room for flutes; `used` says which. Empty where
 /// none fits.
-std::vector<Frustum> HolderThatFits(const std::string& wanted, double length, std::string* used) {
-  const std::vector<std::string> candidates = {wanted, kDefaultHolder, "CAT40-ER32-70",
-                                               "CAT40-ER32-60"};
-  for (const std::string& name : candidates) {
+std::vector<Frustum> HolderThatFits(const std::string& interface, double length,
+                                    std::string* used) {
+  const std::string longest = AssumedHolder(interface);
+  const std::string stem = longest.substr(0, longest.rfind('-'));
+  for (const std::string& name : {longest, stem + "-70", stem + "-60"}) {
     const std::optional<std::vector<Frustum>> holder = HolderByName(name);
     if (holder && Height(*holder) + kLeastStickOut <= length) {
       *used = name;
@@ -226,8 +227,18 @@ std::vector<Frustum> HolderThatFits(const std::string& wanted, double length, st
 
 }  // namespace
 
+// All that can be assumed are of one length, so nothing else of the tool changes.
+void ChangeAssumedHolder(const std::string& interface, Tool* tool) {
+  const std::string name = AssumedHolder(interface);
+  if (tool->assumed_holder.empty() || tool->assumed_holder == name) return;
+  tool->holder = Stack(tool->holder.z_min(), *HolderByName(name), tool->length);
+  const std::size_t said = tool->assumed.find(tool->assumed_holder);
+  if (said != std::string::npos) tool->assumed.replace(said, tool->assumed_holder.size(), name);
+  tool->assumed_holder = name;
+}
+
 Tool AssumeTool(int number, const std::string& name, double diameter, double corner_radius,
-                double length, const std::string& holder) {
+                double length, const std::string& interface) {
   ToolSpec spec;
   spec.number = number;
   spec.name = name;
@@ -240,7 +251,7 @@ Tool AssumeTool(int number, const std::string& name, double diameter, double cor
   if (ball) cutter.corner_radius = 0.5 * cutter.diameter;
   spec.length = std::max(length > 0.0 ? length : kAssumedLength, cutter.corner_radius + 1.0);
   std::string used;
-  spec.holder = HolderThatFits(holder, spec.length, &used);
+  spec.holder = HolderThatFits(interface, spec.length, &used);
   const double stick_out = spec.length - Height(spec.holder);
   cutter.flute_length =
       std::min(stick_out, std::max(3.0 * cutter.diameter, 2.0 * cutter.corner_radius));

@@ -48,12 +48,16 @@ std::string MakeTool(const ToolSpec& spec, Tool* tool);
 /// Nominal outlines.
 std::optional<std::vector<Frustum>> HolderByName(const std::string& name);
 std::vector<std::string> HolderNames();
-inline constexpr const char* kDefaultHolder = "CAT40-ER32-100";
+/// What is taken for a holder that nobody names: of the spindle's interface ("BT40"; one that is
+/// not known counts as CAT40), 100 mm long.
+std::string AssumedHolder(const std::string& interface);
+/// Where a job did not know the spindle when it assumed a holder: that of `interface` instead.
+void ChangeAssumedHolder(const std::string& interface, Tool* tool);
 
 /// A tool of which the program's comments say something, or nothing: what is not known (0 or "") is
-/// assumed. Tool::assumed says everything that was taken. A holder that is too long for `length` is
-/// replaced by the longest that fits.
+/// assumed. Tool::assumed says everything that was taken. The holder is that of the spindle's
+/// `interface`, or the longest of it that `length` has room for.
 Tool AssumeTool(int number, const std::string& name, double diameter, double corner_radius,
-                double length, const std::string& holder);
+                double length, const std::string& interface);
 
 }  // namespace ncsim::machine

@@ -160,6 +160,18 @@ TEST(HolderTest, Cat40FlangeStandsWhereTheStandardPutsIt) {
   EXPECT_NEAR(RadiusAt(tool.holder, gauge - 19.1), 25.0, 1e-9);
 }
 
+// MAS 403 no. 40: gauge diameter 44.45, flange 63 in diameter and 25 thick, 2 below the gauge line.
+TEST(HolderTest, Bt40FlangeStandsWhereTheStandardPutsIt) {
+  ToolSpec spec = Spec(CutterType::kEnd, 6.0, 0.0, 20.0);
+  spec.holder = *HolderByName("BT40-ER16-100");
+  const Tool tool = Make(spec);
+  const double gauge = tool.length;
+  EXPECT_NEAR(RadiusAt(tool.holder, gauge - 1.9), 0.5 * 44.45, 1e-9);
+  EXPECT_NEAR(RadiusAt(tool.holder, gauge - 2.1), 31.5, 1e-9);
+  EXPECT_NEAR(RadiusAt(tool.holder, gauge - 26.9), 31.5, 1e-9);
+  EXPECT_NEAR(RadiusAt(tool.holder, gauge - 27.1), 16.0, 1e-9);
+}
+
 TEST(HolderTest, EveryNameGivesAHolderOfItsGaugeLength) {
   for (const std::string& name : HolderNames()) {
     const auto holder = HolderByName(name);
@@ -175,7 +187,7 @@ TEST(HolderTest, EveryNameGivesAHolderOfItsGaugeLength) {
 }
 
 TEST(AssumeToolTest, SaysEverythingThatWasTaken) {
-  const Tool ball = AssumeTool(3, "BALL_MILL", 5.9944, 2.9972, 180.0, "CAT40-ER32-100");
+  const Tool ball = AssumeTool(3, "BALL_MILL", 5.9944, 2.9972, 180.0, "CAT40");
   EXPECT_EQ(ball.number, 3);
   EXPECT_EQ(ball.type, CutterType::kBall);
   EXPECT_EQ(ball.length, 180.0);
@@ -184,8 +196,8 @@ TEST(AssumeToolTest, SaysEverythingThatWasTaken) {
       ball.assumed,
       "length 180 mm, ball diameter 5.994 mm, corner radius 2.997 mm, flutes 17.983 mm, holder "
       "CAT40-ER32-100");
-  EXPECT_EQ(AssumeTool(4, "", 12.0, 1.0, 180.0, kDefaultHolder).type, CutterType::kBull);
-  EXPECT_EQ(AssumeTool(4, "", 12.0, 0.0, 180.0, kDefaultHolder).type, CutterType::kEnd);
+  EXPECT_EQ(AssumeTool(4, "", 12.0, 1.0, 180.0, "CAT40").type, CutterType::kBull);
+  EXPECT_EQ(AssumeTool(4, "", 12.0, 0.0, 180.0, "BT40").type, CutterType::kEnd);
 }
 
 TEST(AssumeToolTest, MakesATooLWhateverItIsGiven) {
@@ -199,8 +211,33 @@ TEST(AssumeToolTest, MakesATooLWhateverItIsGiven) {
       }
     }
   }
-  EXPECT_THAT(AssumeTool(7, "", 12.0, 0.0, 70.0, kDefaultHolder).assumed,
+  EXPECT_THAT(AssumeTool(7, "", 12.0, 0.0, 70.0, "CAT40").assumed,
               ::testing::EndsWith("holder CAT40-ER32-60"));
+}
+
+// What an unnamed holder is follows from the spindle; a job is read before the model is.
+TEST(AssumeToolTest, TakesTheHolderOfTheSpindle) {
+  EXPECT_EQ(AssumedHolder("HSK-A63"), "HSK-A63-ER32-100");
+  EXPECT_EQ(AssumedHolder("Capto C6"), "CAT40-ER32-100");
+  EXPECT_THAT(AssumeTool(7, "", 12.0, 0.0, 180.0, "BT40").assumed,
+              ::testing::EndsWith("holder BT40-ER32-100"));
+  EXPECT_THAT(AssumeTool(7, "", 12.0, 0.0, 100.0, "BT40").assumed,
+              ::testing::EndsWith("holder BT40-ER32-70"));
+
+  ToolSpec spec = Spec(CutterType::kEnd, 6.0, 0.0, 20.0);
+  spec.holder = *HolderByName("CAT40-ER32-100");
+  Tool tool = Make(spec);
+  tool.assumed_holder = "CAT40-ER32-100";
+  tool.assumed = "holder CAT40-ER32-100, and more";
+  ChangeAssumedHolder("BT40", &tool);
+  EXPECT_EQ(tool.assumed, "holder BT40-ER32-100, and more");
+  spec.holder = *HolderByName("BT40-ER32-100");
+  const Tool wanted = Make(spec);
+  for (const double depth : {1.0, 2.5, 26.5, 27.5, 99.0}) {
+    const double z = tool.length - depth;
+    EXPECT_EQ(RadiusAt(tool.holder, z), RadiusAt(wanted.holder, z)) << depth;
+  }
+  EXPECT_EQ(tool.holder.z_min(), wanted.holder.z_min());
 }
 
 }  // namespace

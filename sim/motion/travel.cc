@@ -155,6 +155,7 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
     const Meter::ToolPose to = meter.ToolAt(motion.q1());
     const Measures measures = meter.Of(motion, from, to);
     corner_rounding_ = std::max(corner_rounding_, motion.facts.corner_rounding);
+    orientation_tolerance_ = std::max(orientation_tolerance_, motion.facts.orientation_tolerance);
     Box& box = boxes_[0][i / kLeaf];
     const auto all = [](double change) { return Eigen::Vector3d::Constant(change); };
     Enclose(motion.q0(), motion.q1(), measures.joints, &box.lower, &box.upper);

@@ -41,8 +41,9 @@ class Travel {
   /// has one, of all motions.
   std::size_t levels() const { return boxes_.size(); }
   const Box& box(std::size_t level, std::size_t i) const { return boxes_[level][i]; }
-  /// Greatest Facts::corner_rounding.
+  /// Greatest Facts::corner_rounding and Facts::orientation_tolerance.
   double corner_rounding() const { return corner_rounding_; }
+  double orientation_tolerance() const { return orientation_tolerance_; }
 
   std::size_t width() const { return width_; }
   /// Sums over the motions before the i-th, `width()` of them; i up to size().
@@ -56,6 +57,7 @@ class Travel {
   double tool_length_ = 0.0;
   std::vector<std::vector<Box>> boxes_;
   double corner_rounding_ = 0.0;
+  double orientation_tolerance_ = 0.0;
   std::size_t width_ = 0;
   std::vector<double> sums_;
 };

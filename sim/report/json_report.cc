@@ -69,7 +69,8 @@ Json ToJson(const collision::PairClearance& clearance, const SourceFiles& files)
           {"proven_mm", RoundedDown(clearance.proven_mm)},
           {"seen_mm", Number(clearance.seen_mm, 2)},
           {"line", clearance.where.line},
-          {"file", files.name(clearance.where.file)}};
+          {"file", files.name(clearance.where.file)},
+          {"widened_mm", Number(clearance.widened_mm, 2)}};
 }
 
 Json ToJson(const collision::DeepestCut& cut, const SourceFiles& files) {
@@ -154,6 +155,7 @@ void WriteJson(const CheckResult& result, const SourceFiles& files, std::ostream
   json["cuts"] = Array(result.cuts, located);
   json["job"] = result.job.empty() ? Json(nullptr) : Json(result.job);
   json["motion_time_model"] = MotionTimeModel();
+  json["orientation_tolerance_deg"] = Number(Degrees(result.orientation_tolerance), 4);
   Write(json, out);
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "sim/base/units.h"
 #include "sim/report/printable.h"
 #include "sim/report/result.h"
 
@@ -102,6 +103,15 @@ TEST_F(ReportTest, RepeatedFindingsAreSummed) {
   EXPECT_THAT(text, HasSubstr("holder of T3 hits vise_jaw"));
 }
 
+TEST_F(ReportTest, WideningIsTold) {
+  result_.clearances = {{{"T3.shank", "ring"}, 5.0, 5.1, {0, 388, 1}, 1.2},
+                        {{"T3.holder", "ring"}, 5.0, 5.1, {0, 388, 1}, 2.5}};
+  EXPECT_THAT(Text(), Not(HasSubstr("widened")));
+  result_.orientation_tolerance = Radians(1.0);
+  EXPECT_THAT(Text(), HasSubstr("\npairs were widened for smoothing, which may turn the tool by 1 "
+                                "deg: by up to 2.50 mm (T3.holder and ring)\n"));
+}
+
 TEST_F(ReportTest, HostileBytesDoNotReachTheTerminal) {
   result_.findings = {MakeFinding(Rule::kSyntax, {0, 3, 1}, "'\x1b[2J' \xff \xc2\x9b is no word")};
   EXPECT_THAT(Text(), HasSubstr("'?[2J' ? ?? is no word [syntax]"));
@@ -112,7 +122,8 @@ TEST_F(ReportTest, JsonOfAContact) {
   result_.blocks = 16115;
   result_.motion_time = 8123.42;
   result_.findings = {HolderHitsVise()};
-  result_.clearances = {{{"T3.holder", "vise_jaw"}, 1.819, 1.83, {0, 388, 1}}};
+  result_.clearances = {{{"T3.holder", "vise_jaw"}, 1.819, 1.83, {0, 388, 1}, 2.5}};
+  result_.orientation_tolerance = Radians(1.0);
   result_.assumptions = {{"offset G54", "...", true, false}};
   std::string flat;
   for (const char c : Json()) {
@@ -130,11 +141,12 @@ TEST_F(ReportTest, JsonOfAContact) {
       R"("holder of T3 hits vise_jaw 1.4 mm deep at X-81.280", "bodies": [ "T3.holder", )"
       R"("vise_jaw" ], "clearance_mm": -1.4, "axes": { "X": -81.28, "Y": 0.0, "Z": -312.4, "B": -20.0, )"
       R"("C": 45.0 }, "time_s": 733.1 } ], "clearances": [ { "bodies": [ "T3.holder", )"
-      R"("vise_jaw" ], "proven_mm": 1.81, "seen_mm": 1.83, "line": 388, "file": "part.nc" } ], )"
+      R"("vise_jaw" ], "proven_mm": 1.81, "seen_mm": 1.83, "line": 388, "file": "part.nc", )"
+      R"("widened_mm": 2.5 } ], )"
       R"("assumptions": [ { "name": "offset G54", "text": "...", "places_metal": true, )"
       R"("accepted": false } ], "not_checked": [ "stock" ], "cuts": [], "job": null, )"
       R"("motion_time_model": ")" +
-          std::string(MotionTimeModel()) + R"("})");
+          std::string(MotionTimeModel()) + R"(", "orientation_tolerance_deg": 1.0})");
 }
 
 TEST_F(ReportTest, ThePointsOfAContact) {

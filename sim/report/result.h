@@ -29,6 +29,7 @@ struct CheckResult {
   std::vector<Finding> findings;  ///< Sorted: see SortFindings.
   std::vector<collision::PairClearance> clearances;
   std::vector<collision::DeepestCut> cuts;
+  double orientation_tolerance = 0.0;  ///< rad: what smoothing may turn the tool by, at most.
   std::vector<Assumption> assumptions;
   std::vector<std::string> not_checked;  ///< "stock" ...
 };

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "sim/base/text.h"
+#include "sim/base/units.h"
 #include "sim/report/printable.h"
 #include "sim/report/result.h"
 
@@ -84,6 +85,17 @@ void WriteClearances(const CheckResult& result, std::ostream& out) {
     out << "  ... and " << sorted.size() - kMaxPairs
         << " pairs that stay further apart; --format json lists them all\n";
   }
+}
+
+/// What the pairs were to clear where smoothing turns the tool.
+void WriteWidening(const CheckResult& result, std::ostream& out) {
+  if (result.orientation_tolerance <= 0.0 || result.clearances.empty()) return;
+  const auto widest =
+      std::max_element(result.clearances.begin(), result.clearances.end(),
+                       [](const auto& a, const auto& b) { return a.widened_mm < b.widened_mm; });
+  out << "pairs were widened for smoothing, which may turn the tool by "
+      << Short(Degrees(result.orientation_tolerance), 3) << " deg: by up to "
+      << Fixed(widest->widened_mm, 2) << " mm (" << Printable(PairName(*widest)) << ")\n";
 }
 
 void WriteCuts(const CheckResult& result, std::ostream& out) {
@@ -179,6 +191,7 @@ void WriteText(const CheckResult& result, const SourceFiles& files, const LineTe
   WriteFindings(result.findings, files, line_text, out);
   WriteCuts(result, out);
   WriteClearances(result, out);
+  WriteWidening(result, out);
   WriteAssumptions(result.assumptions, out);
   out << "machine time: " << MotionTimeModel() << "\n";
   out << Summary(result) << "\n";

@@ -4,6 +4,7 @@
 // the interpreter; tip and axis are worked out by the closed form of a BC table.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/checks/check.h"
 #include "sim/control/controller.h"
@@ -208,21 +210,49 @@ TEST_F(Impeller, WrapsAreWhereTheMachineDataSay) {
   }
 }
 
-// As the paper's post wrote them (its figure 3-22): the first rotary move behind TRAORI.
+// As the paper's post wrote them (its figure 3-22): the first rotary move, N450, behind TRAORI and
+// N440. Number 1 has no TRAORI. `text` gets the move back there; the line on which it then stands.
+int PutRotaryMoveBehindTraori(std::string* text) {
+  const auto move = text->find("N450 G0 B");
+  if (move == std::string::npos) return 0;
+  const std::string block = text->substr(move, text->find('\n', move) + 1 - move);
+  text->erase(move, block.size());
+  const auto behind = text->find("N460 ");
+  EXPECT_LT(text->find("TRAORI"), behind);
+  text->insert(behind, block);
+  return 1 + static_cast<int>(std::count(text->begin(), text->begin() + behind, '\n'));
+}
+
 TEST_F(Impeller, FirstRotaryMoveBehindTraoriIsNamed) {
-  for (const char* name : {"impeller_3_blade_finish.head", "impeller_4_hub_finish.head"}) {
+  int programs = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().extension() != ".mpf") continue;
+    const std::string name = entry.path().stem().string();
     std::string text = Read(name);
-    const auto move = text.find("N450 G0 B");
-    ASSERT_NE(move, std::string::npos) << name;
-    const auto end = text.find('\n', move) + 1;
-    const std::string line = text.substr(move, end - move);
-    text.erase(move, end - move);
-    const auto behind = text.find("N460");
-    ASSERT_NE(behind, std::string::npos) << name;
-    text.insert(behind, line);
     Run(text);
-    EXPECT_NE(Findings().find("rotary-under-tcp"), std::string::npos) << name << Findings();
+    EXPECT_EQ(Findings().find("rotary-under-tcp"), std::string::npos) << name << Findings();
+    const int line = PutRotaryMoveBehindTraori(&text);
+    EXPECT_EQ(line == 0, name.find("_1_") != std::string::npos) << name;
+    if (line == 0) continue;
+    ++programs;
+    Run(text);
+    const Finding* found = nullptr;
+    for (const Finding& finding : findings_) {
+      if (finding.rule == Rule::kRotaryUnderTcp) found = &finding;
+    }
+    ASSERT_NE(found, nullptr) << name << Findings();
+    EXPECT_EQ(found->where.line, line) << name;
+    // The tip stands in X0 Y0 on the axis of C, 650 mm less the tool above that of B: to stay over
+    // the part it swings about that.
+    const double b = Radians(std::stod(text.substr(text.find("N450 G0 B") + 9)));
+    for (const std::string& words :
+         {std::string("a rapid turns axis B"), std::string("the linear axes swing at rapid"),
+          "X by up to " + Fixed((650.0 - kLength) * std::sin(b), 1),
+          std::string("turn the axis before TCP is switched on")}) {
+      EXPECT_NE(found->message.find(words), std::string::npos) << found->message;
+    }
   }
+  EXPECT_EQ(programs, 11);
 }
 
 TEST_F(Impeller, CancelledOffsetIsOneFinding) {

@@ -57,8 +57,9 @@ void SameOnOldAndNew(const std::string& arguments) {
 }
 
 TEST(Processors, ScenesAreToldAlike) {
-  for (const char* scene : {"five_axis/dome.nc", "three_plus_two/angle_block.nc",
-                            "crash_gallery/collision.nc", "crash_gallery/gouge.nc"}) {
+  for (const char* scene :
+       {"five_axis/dome.nc", "three_plus_two/angle_block.nc", "impeller_840d/impeller.mpf",
+        "crash_gallery/collision.nc", "crash_gallery/gouge.nc"}) {
     SCOPED_TRACE(scene);
     SameOnOldAndNew(std::string(NCSIM_SOURCE_DIR) + "/scenes/" + scene);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scenes as a user runs them: what passes passes without a word, and each program of the
-// galleries is found out by the rule that it is named after, at the line that its first comment
-// states, in the words that docs/findings.md shows.
+// galleries is found out by the rule that it is named after (.nc: of a Haas, .mpf: of a SINUMERIK),
+// at the line that its first comment states, in the words that docs/findings.md shows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,8 +41,11 @@ Outcome Check(const fs::path& program) { return RunNcsim({"check", program.strin
 std::vector<std::string> ProgramsOf(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(kRoot / "scenes" / folder)) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".nc" && name != "reference") names.push_back(name);
+    const fs::path extension = entry.path().extension();
+    const std::string name = entry.path().filename().string();
+    if ((extension == ".nc" || extension == ".mpf") && name != "reference.nc") {
+      names.push_back(name);
+    }
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -89,27 +92,29 @@ TEST(Scenes, TheGalleriesHaveEveryRule) {
   const std::vector<std::string> compared = ProgramsOf("compare_gallery");
   names.insert(names.end(), compared.begin(), compared.end());
   for (const RuleInfo& rule : Rules()) {
-    EXPECT_TRUE(std::count(names.begin(), names.end(), std::string(rule.id)))
+    EXPECT_TRUE(std::count(names.begin(), names.end(), std::string(rule.id) + ".nc"))
         << "no program of the galleries shows " << rule.id;
   }
 }
 
 // Line 0 in EXPECT is a finding about the whole run.
-void ExpectFound(const fs::path& program, const std::string& rule, const Outcome& outcome) {
+void ExpectFound(const fs::path& program, const Outcome& outcome) {
+  const std::string rule = program.stem().string();
   std::ifstream in(program);
   std::string first;
   std::getline(in, first);
   std::smatch expect;
-  ASSERT_TRUE(std::regex_match(first, expect, std::regex(R"(\(EXPECT (\d+): ([a-z-]+)\)\r?)")))
+  ASSERT_TRUE(
+      std::regex_match(first, expect, std::regex(R"((?:\(|; )EXPECT (\d+): ([a-z-]+)\)?\r?)")))
       << first;
   ASSERT_EQ(expect[2], rule);
-  const std::string where =
-      expect[1] == "0" ? R"(\.nc: )" : R"(\.nc:)" + expect[1].str() + R"(:\d+: )";
+  const std::string where = "/" + program.filename().string() + "(" +
+                            (expect[1] == "0" ? ": " : ":" + expect[1].str() + R"(:\d+: )");
   std::smatch said;
   ASSERT_TRUE(
-      std::regex_search(outcome.text, said, std::regex(rule + where + "[^\\n]*\\[" + rule + "\\]")))
+      std::regex_search(outcome.text, said, std::regex(where + "[^\\n]*\\[" + rule + "\\])")))
       << outcome.text;
-  const std::string example = "\n" + said.str() + "\n";
+  const std::string example = "\n" + program.filename().string() + said[1].str() + "\n";
   EXPECT_NE(Findings().find(example), std::string::npos) << "docs/findings.md lacks" << example;
   const Severity severity = Info(*RuleFromId(rule)).severity;
   if (severity == Severity::kError) {
@@ -122,15 +127,15 @@ void ExpectFound(const fs::path& program, const std::string& rule, const Outcome
 
 std::string TestName(const testing::TestParamInfo<std::string>& test) {
   std::string name = test.param;
-  std::replace(name.begin(), name.end(), '-', '_');
+  for (char& c : name) c = c == '-' || c == '.' ? '_' : c;
   return name;
 }
 
 class CrashGallery : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(CrashGallery, IsFoundAtItsLine) {
-  const fs::path program = kRoot / "scenes/crash_gallery" / (GetParam() + ".nc");
-  ExpectFound(program, GetParam(), Check(program));
+  const fs::path program = kRoot / "scenes/crash_gallery" / GetParam();
+  ExpectFound(program, Check(program));
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryProgram, CrashGallery,
@@ -140,10 +145,10 @@ class CompareGallery : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(CompareGallery, IsFoundAtItsLine) {
   const fs::path folder = kRoot / "scenes/compare_gallery";
-  const fs::path program = folder / (GetParam() + ".nc");
+  const fs::path program = folder / GetParam();
   const Outcome outcome =
       RunNcsim({"compare", (folder / "reference.nc").string(), program.string()});
-  ExpectFound(program, GetParam(), outcome);
+  ExpectFound(program, outcome);
   EXPECT_NE(outcome.text.find(": 1 error, 0 unproven, 0 warnings; ") == std::string::npos,
             outcome.text.find(": 0 errors, 0 unproven, 1 warning; ") == std::string::npos)
       << outcome.text;
