@@ -2,6 +2,7 @@
 // A real cutter-location file of 70,944 records (an impeller, inches) held against itself, whole
 // and with one thing changed.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -24,8 +25,9 @@ class ClCompare : public ::testing::Test {
     if (corpus == nullptr) GTEST_SKIP() << "NCSIM_CORPUS is not set";
     original_ = std::string(corpus) + "/clsf/creo-ncl/assets/finition.ncl";
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    changed_ =
-        (fs::temp_directory_path() / (std::string("ncsim_cl_") + info->name() + ".ncl")).string();
+    changed_ = (fs::temp_directory_path() /
+                (std::string("ncsim_cl_") + info->name() + std::to_string(getpid()) + ".ncl"))
+                   .string();
     std::ifstream in(original_, std::ios::binary);
     text_.assign(std::istreambuf_iterator<char>(in), {});
   }
