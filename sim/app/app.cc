@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/app/check_command.h"
+#include "sim/app/compare_command.h"
 #include "sim/app/explain.h"
 #include "sim/app/options.h"
 #include "sim/app/program_dir.h"
@@ -37,6 +38,8 @@ int RunCommand(const Command& command, std::ostream& out, std::ostream& err) {
   switch (command.kind) {
     case Command::Kind::kCheck:
       return Check(command.check, out, err);
+    case Command::Kind::kCompare:
+      return Compare(command.compare, out, err);
     case Command::Kind::kInspect:
       return InspectModel(command.model, out, err);
     case Command::Kind::kExplain:
@@ -53,6 +56,12 @@ std::string ProgramDir() {
   std::error_code error;
   const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
   return error ? "" : executable.parent_path().string();
+}
+
+ExitCode ExitOf(Verdict verdict) {
+  return verdict == Verdict::kPass   ? kExitPass
+         : verdict == Verdict::kFail ? kExitFail
+                                     : kExitUnproven;
 }
 
 int CombinedExit(const std::vector<int>& codes) {

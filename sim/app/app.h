@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/finding.h"
+
 namespace ncsim::app {
 
 /// Exit codes of every command. Scripts rely on them.
@@ -16,6 +18,9 @@ enum ExitCode {
   kExitBadInput = 3,  ///< Or bad usage.
   kExitInternalError = 4,
 };
+
+/// Of a verdict.
+ExitCode ExitOf(Verdict verdict);
 
 /// Runs a command; `args` without the program's name. Reports go to `out`, trouble to `err`.
 /// Throws nothing; returns an ExitCode.

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -17,7 +15,7 @@
 #include "sim/app/finding_log.h"
 #include "sim/app/nominal.h"
 #include "sim/app/pipeline.h"
-#include "sim/app/program_dir.h"
+#include "sim/app/program_input.h"
 #include "sim/app/tool_source.h"
 #include "sim/base/text.h"
 #include "sim/machine/load.h"
@@ -26,29 +24,6 @@
 
 namespace ncsim::app {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Source lines for carets, of the program and of the subprogram files that it calls.
-class SourceLines {
- public:
-  SourceLines(std::shared_ptr<const nc::Program> program, const SourceFiles& files)
-      : files_(&files) {
-    programs_[0] = std::move(program);
-  }
-  std::string_view operator()(int file, int line) {
-    auto found = programs_.find(file);
-    if (found == programs_.end()) {
-      Diagnostics ignored;  // The control has read the file and reported what is wrong with it.
-      found = programs_.emplace(file, nc::Program::Load(files_->name(file), &ignored)).first;
-    }
-    return found->second == nullptr ? "" : found->second->LineByNumber(line);
-  }
-
- private:
-  const SourceFiles* files_;
-  std::map<int, std::shared_ptr<const nc::Program>> programs_;
-};
 
 class ProgramCheck {
  public:
@@ -84,50 +59,26 @@ class ProgramCheck {
     return program_ != nullptr && !diagnostics_.has_errors();
   }
 
-  /// The job named, else PROGRAM.job.toml: part.nc.job.toml or part.job.toml.
   bool LoadJob() {
-    std::string path = options_.job;
-    if (path.empty()) {
-      const std::string appended = name_ + ".job.toml";
-      const std::string replaced = fs::path(name_).replace_extension(".job.toml").string();
-      std::error_code error;
-      const bool has_appended = fs::exists(appended, error);
-      const bool has_replaced = fs::exists(replaced, error);
-      if (has_appended && has_replaced && appended != replaced) {
-        Complain(name_ + ": error: both " + appended + " and " + replaced +
-                 " are there; name one of them with --job");
-        return false;
-      }
-      if (has_appended) path = appended;
-      if (has_replaced) path = replaced;
+    std::string complaint;
+    const auto path = JobPath(name_, options_.job, &complaint);
+    if (!path) {
+      Complain(complaint);
+      return false;
     }
-    job_ = machine::LoadJob(path, &diagnostics_);
+    job_ = machine::LoadJob(*path, &diagnostics_);
     if (job_ && options_.clearance) job_->check.clearance = *options_.clearance;
     return job_.has_value() && !diagnostics_.has_errors();
   }
 
   bool LoadMachine() {
-    std::string wanted = options_.model;
-    std::string path;
-    if (wanted.empty()) {
-      wanted = job_->model;
-      if (wanted.empty()) {
-        Complain(name_ +
-                 ": error: no machine is named: --model umc750.urdf, or model = "
-                 "\"umc750.urdf\" in the job");
-        return false;
-      }
-      const fs::path beside = fs::path(job_->path).parent_path() / wanted;
-      std::error_code error;
-      if (fs::is_regular_file(beside, error)) path = beside.string();
-    }
-    if (path.empty()) path = machine::FindModel(wanted, ProgramDir());
-    if (path.empty()) {
-      Complain(name_ + ": error: there is no model '" + wanted +
-               "': not a file, and not in $NCSIM_MODELS or among the models that ship");
+    std::string complaint;
+    const auto path = ModelPath(name_, options_.model, *job_, &complaint);
+    if (!path) {
+      Complain(complaint);
       return false;
     }
-    machine_ = machine::LoadMachine(path, &diagnostics_);
+    machine_ = machine::LoadMachine(*path, &diagnostics_);
     return machine_.has_value() && !diagnostics_.has_errors();
   }
 
@@ -196,11 +147,10 @@ class ProgramCheck {
   }
 
   void RejectMotionless() {
-    SourceLines lines(program_, files_);
-    report::CheckResult result;
-    result.findings = log_.Take();
+    SourceLines lines(files_);
+    lines.Know(0, program_);
     std::ostringstream text;
-    report::WriteFindings(result, files_, std::ref(lines), text);
+    report::WriteFindings(log_.Take(), files_, std::ref(lines), text);
     outcome_.messages += text.str();
     Complain(name_ + ": error: the program moves no axis: there is nothing to check");
   }
@@ -277,14 +227,13 @@ class ProgramCheck {
     if (options_.format == Format::kJson) {
       report::WriteJson(result_, files_, text);
     } else {
-      SourceLines lines(program_, files_);
+      SourceLines lines(files_);
+      lines.Know(0, program_);
       report::WriteText(result_, files_, std::ref(lines), text);
     }
     outcome_.report = std::move(text).str();
     outcome_.summary = name_ + ": " + report::Summary(result_);
-    outcome_.exit_code = result_.verdict == Verdict::kPass   ? kExitPass
-                         : result_.verdict == Verdict::kFail ? kExitFail
-                                                             : kExitUnproven;
+    outcome_.exit_code = ExitOf(result_.verdict);
   }
 
   const CheckOptions& options_;

@@ -25,14 +25,15 @@ std::string Read(const fs::path& path) {
   return text.str();
 }
 
-// Each example of docs/findings.md is of a program of the crash gallery, whose first line says
+// Each example of docs/findings.md is of a program of one of the galleries, whose first line says
 // which rule is to be found where (tests/scenes runs them).
-TEST(DocsTest, ExamplesOfFindingsAreOfTheCrashGallery) {
+TEST(DocsTest, ExamplesOfFindingsAreOfTheGalleries) {
   const std::regex example(R"(\n```\n([a-z-]+\.(?:nc|mpf)):(?:(\d+):\d+:)? .*\[([a-z-]+)\]\n```)");
   const std::string text(FindingsText());
   int examples = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), example), end; it != end; ++it) {
-    const std::string program = Read(kSource / "scenes/crash_gallery" / (*it)[1].str());
+    std::string program = Read(kSource / "scenes/crash_gallery" / (*it)[1].str());
+    if (program.empty()) program = Read(kSource / "scenes/compare_gallery" / (*it)[1].str());
     const std::string line = (*it)[2].matched ? (*it)[2].str() : "0";
     const std::string expect = "EXPECT " + line + ": " + (*it)[3].str();
     const bool haas = (*it)[1].str().ends_with(".nc");

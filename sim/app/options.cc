@@ -26,6 +26,7 @@ constexpr const char* kExamples =
     "it is there\n"
     "  ncsim check part.nc --job vise.toml --clearance 2 warn where anything comes closer than 2 "
     "mm\n"
+    "  ncsim compare old.nc new.nc --model umc750.urdf   do both move the tool alike in the part?\n"
     "  ncsim inspect umc750.urdf                         what the model says, and what is wrong "
     "with it\n"
     "  ncsim explain rotary-wrap                         what a finding means and what to do about "
@@ -35,7 +36,7 @@ constexpr const char* kExamples =
     "3 bad input or usage, 4 internal error.";
 
 /// Of the contract, but of later versions: refused by name, never accepted and ignored.
-const std::vector<std::string> kLaterCommands = {"post", "compare", "nightly"};
+const std::vector<std::string> kLaterCommands = {"post", "nightly"};
 const std::vector<std::string> kLaterOptions = {"--report", "--gltf"};
 const std::vector<std::string> kLaterFormats = {"sarif", "junit", "github"};
 
@@ -62,6 +63,7 @@ class CommandLine {
     app_.footer(kExamples);
     app_.allow_extras();
     AddCheck();
+    AddCompare();
     inspect_ = AddCommand("inspect", "print a machine model in words, and what its lint found");
     inspect_->add_option("MODEL", command_.model, "the machine, as for check --model");
     explain_ = AddCommand("explain", "what a rule means, what the machine would do, what to do");
@@ -74,6 +76,7 @@ class CommandLine {
     app_.parse(std::move(args));
     if (const std::string error = Leftover(); !error.empty()) return error;
     if (check_->parsed()) return FinishCheck();
+    if (compare_->parsed()) return FinishCompare();
     if (inspect_->parsed()) {
       command_.kind = Command::Kind::kInspect;
       return command_.model.empty() ? "inspect needs a model: ncsim inspect umc750.urdf" : "";
@@ -82,7 +85,7 @@ class CommandLine {
       command_.kind = Command::Kind::kExplain;
       return "";
     }
-    return "which command? check, inspect or explain (ncsim --help)";
+    return "which command? check, compare, inspect or explain (ncsim --help)";
   }
 
   const Command& command() const { return command_; }
@@ -141,6 +144,34 @@ class CommandLine {
     }
   }
 
+  void AddCompare() {
+    CompareOptions& o = command_.compare;
+    compare_ = AddCommand("compare",
+                          "hold two programs (NC or CL) together: the same motion in the part?");
+    compare_->add_option("A", o.reference, "the program that is right, or its CL file");
+    compare_->add_option("B", o.tested, "the program that is held against it");
+    compare_->add_option("--model", o.model, "the machine, as for check; of both")
+        ->type_name("M.urdf");
+    compare_->add_option("--model-b", o.model_b, "the machine of B, where it is another")
+        ->type_name("M.urdf");
+    compare_->add_option("--job", o.job, "as for check; of both")->type_name("J.toml");
+    compare_->add_option("--job-b", o.job_b, "of B, where it is another")->type_name("J.toml");
+    compare_
+        ->add_option("--tolerance", tolerance_,
+                     "how far the tip may be off (default: 0.005 mm and one output increment)")
+        ->type_name("MM");
+    compare_
+        ->add_option("--angle-tolerance", angle_tolerance_,
+                     "how far the tool axis may be off (default: 0.01 deg)")
+        ->type_name("DEG");
+    compare_->add_option("--assume", assume_, "accept assumptions by name, or all of them")
+        ->type_name("all|NAME,...")
+        ->allow_extra_args(false);
+    compare_->add_flag("--strict", o.strict, "any assumption that is not accepted makes unproven");
+    compare_->add_option("--format", format_, "text or json")->type_name("FORMAT");
+    compare_->add_option("--out", o.out, "write the report to this file")->type_name("FILE");
+  }
+
   /// What the parser could not place, with a suggestion.
   std::string Leftover() const {
     const std::vector<std::string> extras = app_.remaining(true);
@@ -162,12 +193,9 @@ class CommandLine {
     return "unknown command '" + extra + "'" + DidYouMean(extra, known);
   }
 
-  std::string FinishCheck() {
-    command_.kind = Command::Kind::kCheck;
-    CheckOptions& o = command_.check;
-    for (const std::string& name : kLaterOptions) {
-      if (check_->count(name) > 0) return "'" + name + "' is not in this version of ncsim";
-    }
+  /// --format and --assume.
+  std::string FinishCommon(const CLI::App* command, Format* format,
+                           std::vector<std::string>* assume) const {
     if (Contains(kLaterFormats, format_)) {
       return "--format " + format_ + " is not in this version of ncsim; there are text and json";
     }
@@ -175,9 +203,45 @@ class CommandLine {
       return "unknown format '" + format_ + "'" + DidYouMean(format_, {"text", "json"}) +
              "; there are text and json";
     }
-    o.format = format_ == "json" ? Format::kJson : Format::kText;
-    o.assume = SplitNames(assume_);
-    if (check_->count("--assume") > 0 && o.assume.empty()) return "--assume needs a name, or all";
+    *format = format_ == "json" ? Format::kJson : Format::kText;
+    *assume = SplitNames(assume_);
+    if (command->count("--assume") > 0 && assume->empty()) return "--assume needs a name, or all";
+    return "";
+  }
+
+  std::string FinishCompare() {
+    command_.kind = Command::Kind::kCompare;
+    CompareOptions& o = command_.compare;
+    if (const std::string error = FinishCommon(compare_, &o.format, &o.assume); !error.empty()) {
+      return error;
+    }
+    const auto positive = [&](const char* name, double value, std::optional<double>* option) {
+      if (compare_->count(name) == 0) return true;
+      *option = value;
+      return value > 0.0 && std::isfinite(value);
+    };
+    if (!positive("--tolerance", tolerance_, &o.tolerance)) {
+      return "--tolerance takes a distance in mm above 0";
+    }
+    if (!positive("--angle-tolerance", angle_tolerance_, &o.angle_tolerance) ||
+        angle_tolerance_ > 90.0) {
+      return "--angle-tolerance takes an angle in degrees above 0, at most 90";
+    }
+    if (o.reference.empty() || o.tested.empty()) {
+      return "compare needs two programs: ncsim compare old.nc new.nc --model umc750.urdf";
+    }
+    return "";
+  }
+
+  std::string FinishCheck() {
+    command_.kind = Command::Kind::kCheck;
+    CheckOptions& o = command_.check;
+    for (const std::string& name : kLaterOptions) {
+      if (check_->count(name) > 0) return "'" + name + "' is not in this version of ncsim";
+    }
+    if (const std::string error = FinishCommon(check_, &o.format, &o.assume); !error.empty()) {
+      return error;
+    }
     if (check_->count("--clearance") > 0) {
       if (!(clearance_ >= 0.0) || !std::isfinite(clearance_)) {
         return "--clearance takes a distance in mm that is not negative";
@@ -193,11 +257,13 @@ class CommandLine {
 
   CLI::App app_{kDescription, "ncsim"};
   CLI::App* check_ = nullptr;
+  CLI::App* compare_ = nullptr;
   CLI::App* inspect_ = nullptr;
   CLI::App* explain_ = nullptr;
   Command command_;
   std::vector<std::string> assume_;
   double clearance_ = 0.0;
+  double tolerance_ = 0.0, angle_tolerance_ = 0.0;
   std::string format_ = "text";
   std::deque<std::string> later_;  // A deque: the parser keeps references.
 };

@@ -26,11 +26,24 @@ struct CheckOptions {
   bool interpret_only = false;
 };
 
+struct CompareOptions {
+  std::string reference, tested;    ///< A and B.
+  std::string model, model_b;       ///< "" where the job says; model_b: as model.
+  std::string job, job_b;           ///< "" for the program's own, if it exists; job_b: as job.
+  std::optional<double> tolerance;  ///< mm
+  std::optional<double> angle_tolerance;  ///< deg
+  std::vector<std::string> assume;        ///< Names, or "all".
+  bool strict = false;
+  Format format = Format::kText;
+  std::string out;  ///< Report file; "" for standard output.
+};
+
 struct Command {
-  enum class Kind { kCheck, kInspect, kExplain, kDone };
+  enum class Kind { kCheck, kCompare, kInspect, kExplain, kDone };
   Kind kind = Kind::kDone;
   int exit_code = 0;  ///< kDone: help or a usage error has been written.
   CheckOptions check;
+  CompareOptions compare;
   std::string model;  ///< kInspect.
   std::string rule;   ///< kExplain; "" for all.
 };

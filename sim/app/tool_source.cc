@@ -22,15 +22,6 @@ namespace {
 /// No magazine holds more; a larger number is a mistake that the control reports.
 constexpr double kMaxToolNumber = 999.0;
 
-/// mm in a unit of the program's header comments.
-double HeaderUnit(const machine::Machine& machine, const machine::Job& job,
-                  const nc::Program& program) {
-  const int code = control::FirstUnitCode(program.text());
-  if (code != 0) return code == 21 ? 1.0 : kMmPerInch;
-  const std::optional<std::string> setting = control::SettingSource(machine, job).Text("setting 9");
-  return setting && *setting != "inch" ? 1.0 : kMmPerInch;
-}
-
 /// T numbers that stand in the blocks of a SINUMERIK program: `T5`, `T=5`.
 std::set<int> SinumerikToolNumbers(const nc::Program& program) {
   std::set<int> numbers;
@@ -75,6 +66,14 @@ std::set<int> ToolNumbers(const nc::Program& program) {
 
 }  // namespace
 
+double ProgramUnit(const machine::Machine& machine, const machine::Job& job,
+                   const nc::Program& program) {
+  const int code = control::FirstUnitCode(program.text());
+  if (code != 0) return code == 21 ? 1.0 : kMmPerInch;
+  const std::optional<std::string> setting = control::SettingSource(machine, job).Text("setting 9");
+  return setting && *setting != "inch" ? 1.0 : kMmPerInch;
+}
+
 machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job& job,
                              const nc::Program& program) {
   const std::string& interface = machine.control.spindle_interface;
@@ -83,7 +82,7 @@ machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job
     for (machine::Tool& tool : table.tools) machine::ChangeAssumedHolder(interface, &tool);
     return table;
   }
-  const double unit = HeaderUnit(machine, job, program);
+  const double unit = ProgramUnit(machine, job, program);
   std::map<int, machine::Tool> tools;
   for (const nc::HeaderTool& header : nc::ReadHeaderTools(program)) {
     machine::Tool tool = machine::AssumeTool(header.number, header.name, unit * header.diameter,

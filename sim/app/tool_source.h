@@ -16,4 +16,8 @@ namespace ncsim::app {
 machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job& job,
                              const nc::Program& program);
 
+/// mm in a unit of a Haas program's words and header comments.
+double ProgramUnit(const machine::Machine& machine, const machine::Job& job,
+                   const nc::Program& program);
+
 }  // namespace ncsim::app

@@ -57,10 +57,11 @@ struct Finding {
   Rule rule = Rule::kSyntax;
   Severity severity = Severity::kError;
   SourcePosition where;
-  std::string message;                 ///< Lower case, no full stop, value and limit with units.
-  std::vector<std::string> bodies;     ///< The pair, for contacts and near misses.
-  std::optional<double> clearance_mm;  ///< Minus the depth for a contact.
-  AxisReadout axes;                    ///< At the first contact.
+  std::optional<SourcePosition> other;  ///< `compare`: the place in the program it is held against.
+  std::string message;                  ///< Lower case, no full stop, value and limit with units.
+  std::vector<std::string> bodies;      ///< The pair, for contacts and near misses.
+  std::optional<double> clearance_mm;   ///< Minus the depth for a contact.
+  AxisReadout axes;                     ///< At the first contact.
   /// Of a contact: where it begins, a point on the surface of each of `bodies` in machine
   /// coordinates, mm (Machine::Coordinates); or empty.
   std::vector<std::array<double, 3>> points;

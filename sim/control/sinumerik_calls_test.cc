@@ -2,6 +2,7 @@
 // Subprograms, cycles and modal calls of the SINUMERIK language (NC programming 12/2019,
 // "Subprogram technique").
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -113,7 +114,8 @@ TEST(SinumerikCallsTest, WhatIsNotFoundIsNamedAndTheProgramGoesOn) {
 }
 
 TEST(SinumerikCallsTest, FilesOfTheSearchFolders) {
-  const fs::path folder = fs::temp_directory_path() / "ncsim_sinumerik_calls";
+  const fs::path folder =
+      fs::temp_directory_path() / ("ncsim_sinumerik_calls_" + std::to_string(getpid()));
   fs::create_directories(folder);
   std::ofstream(folder / "Pock.spf") << "PROC POCK(REAL AA)\nX=AA\nRET\n";
   std::ofstream(folder / "_N_L77_SPF") << "X77\nM17\n";

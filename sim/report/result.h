@@ -52,8 +52,14 @@ void WriteText(const CheckResult& result, const SourceFiles& files, const LineTe
                std::ostream& out);
 
 /// The findings of WriteText alone.
-void WriteFindings(const CheckResult& result, const SourceFiles& files, const LineText& line_text,
-                   std::ostream& out);
+void WriteFindings(const std::vector<Finding>& findings, const SourceFiles& files,
+                   const LineText& line_text, std::ostream& out);
+/// What was assumed; nothing where nothing was.
+void WriteAssumptions(const std::vector<Assumption>& assumptions, std::ostream& out);
+/// "1 error, 0 unproven, 2 warnings".
+std::string CountFindings(const std::vector<Finding>& findings);
+/// "1 block", "2 blocks".
+std::string Count(std::size_t number, const std::string& singular);
 
 /// The last line of WriteText, without its end: "pass, stock not simulated: ...".
 std::string Summary(const CheckResult& result);

@@ -30,6 +30,12 @@ void WriteFinding(const Finding& finding, const SourceFiles& files, const LineTe
   if (finding.where.line <= 0) return;
   const std::string_view line = line_text(finding.where.file, finding.where.line);
   if (!line.empty()) out << LineWithCaret(line, finding.where.column);
+  if (finding.other && finding.other->line > 0) {
+    const std::string_view other = line_text(finding.other->file, finding.other->line);
+    out << Printable("  against " + Position({finding.other->file, finding.other->line, 0}, files) +
+                     ": " + std::string(other))
+        << "\n";
+  }
   if (finding.points.empty()) return;
   const auto& [x, y, z] = finding.points.back();
   out << "  contact point, machine coordinates: "
@@ -99,18 +105,6 @@ void WriteCuts(const CheckResult& result, std::ostream& out) {
   }
 }
 
-void WriteAssumptions(const CheckResult& result, std::ostream& out) {
-  if (result.assumptions.empty()) return;
-  out << "assumed, because neither the job nor the command line says:\n";
-  for (const Assumption& assumption : result.assumptions) {
-    out << "  " << Printable(assumption.name + ": " + assumption.text)
-        << (assumption.accepted       ? " (accepted)"
-            : assumption.places_metal ? " (keeps the verdict from being pass)"
-                                      : "")
-        << "\n";
-  }
-}
-
 std::string Duration(double seconds) {
   if (!std::isfinite(seconds)) return "an unknown time";
   if (seconds < 60.0) return Fixed(seconds, 1) + " s";
@@ -120,10 +114,6 @@ std::string Duration(double seconds) {
   std::string text = hours > 0.0 ? Fixed(hours, 0) + " h " : "";
   return text + Fixed(minutes, 0) + " min " + Fixed(whole - 3600.0 * hours - 60.0 * minutes, 0) +
          " s";
-}
-
-std::string Count(std::size_t number, const std::string& singular) {
-  return std::to_string(number) + " " + singular + (number == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -142,17 +132,25 @@ void SortFindings(std::vector<Finding>* findings) {
                    [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
 }
 
+std::string Count(std::size_t number, const std::string& singular) {
+  return std::to_string(number) + " " + singular + (number == 1 ? "" : "s");
+}
+
+std::string CountFindings(const std::vector<Finding>& findings) {
+  std::map<Severity, std::size_t> count;
+  for (const Finding& finding : findings) ++count[finding.severity];
+  return Count(count[Severity::kError], "error") + ", " +
+         std::to_string(count[Severity::kUnproven]) + " unproven, " +
+         Count(count[Severity::kWarning], "warning");
+}
+
 std::string Summary(const CheckResult& result) {
   std::string text(ToString(result.verdict));
   for (const std::string& what : result.not_checked) {
     text += ", " + what + (what == "stock" ? " not simulated" : " not checked");
   }
-  std::map<Severity, std::size_t> count;
-  for (const Finding& finding : result.findings) ++count[finding.severity];
-  text += ": " + Count(count[Severity::kError], "error") + ", " +
-          std::to_string(count[Severity::kUnproven]) + " unproven, " +
-          Count(count[Severity::kWarning], "warning") + "; " + Count(result.blocks, "block") +
-          ", " + Duration(result.motion_time) + " of machine time";
+  text += ": " + CountFindings(result.findings) + "; " + Count(result.blocks, "block") + ", " +
+          Duration(result.motion_time) + " of machine time";
   if (!result.clearances.empty()) {
     const collision::PairClearance nearest = ByClearance(result).front();
     text +=
@@ -161,10 +159,10 @@ std::string Summary(const CheckResult& result) {
   return Printable(text);
 }
 
-void WriteFindings(const CheckResult& result, const SourceFiles& files, const LineText& line_text,
-                   std::ostream& out) {
+void WriteFindings(const std::vector<Finding>& findings, const SourceFiles& files,
+                   const LineText& line_text, std::ostream& out) {
   std::map<std::pair<Rule, Severity>, int> count;
-  for (const Finding& finding : result.findings) {
+  for (const Finding& finding : findings) {
     if (++count[{finding.rule, finding.severity}] <= kMaxFindingsOfRule) {
       WriteFinding(finding, files, line_text, out);
     }
@@ -176,13 +174,25 @@ void WriteFindings(const CheckResult& result, const SourceFiles& files, const Li
   }
 }
 
+void WriteAssumptions(const std::vector<Assumption>& assumptions, std::ostream& out) {
+  if (assumptions.empty()) return;
+  out << "assumed, because neither the job nor the command line says:\n";
+  for (const Assumption& assumption : assumptions) {
+    out << "  " << Printable(assumption.name + ": " + assumption.text)
+        << (assumption.accepted       ? " (accepted)"
+            : assumption.places_metal ? " (keeps the verdict from being pass)"
+                                      : "")
+        << "\n";
+  }
+}
+
 void WriteText(const CheckResult& result, const SourceFiles& files, const LineText& line_text,
                std::ostream& out) {
-  WriteFindings(result, files, line_text, out);
+  WriteFindings(result.findings, files, line_text, out);
   WriteCuts(result, out);
   WriteClearances(result, out);
   WriteWidening(result, out);
-  WriteAssumptions(result, out);
+  WriteAssumptions(result.assumptions, out);
   out << "machine time: " << MotionTimeModel() << "\n";
   out << Summary(result) << "\n";
 }

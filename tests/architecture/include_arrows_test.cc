@@ -26,11 +26,14 @@ const std::map<std::string, std::set<std::string>> kArrows = {
     {"sim/collision", {"sim/base", "kinematics", "sim/machine", "sim/motion"}},
     {"sim/control", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
     {"post", {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion"}},
+    {"sim/compare",
+     {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control", "post"}},
     {"sim/report",
-     {"sim/base", "kinematics", "sim/machine", "sim/motion", "sim/checks", "sim/collision"}},
+     {"sim/base", "kinematics", "sim/machine", "sim/motion", "sim/checks", "sim/collision",
+      "sim/compare"}},
     {"sim/app",
      {"sim/base", "kinematics", "sim/nc", "sim/machine", "sim/motion", "sim/control", "sim/checks",
-      "sim/collision", "sim/report", "post"}},
+      "sim/collision", "sim/compare", "sim/report", "post"}},
 };
 
 struct Library {

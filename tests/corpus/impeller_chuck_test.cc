@@ -3,6 +3,7 @@
 // scenes/impeller_840d, T1 to T3 in BT40 holders. The paper states the cutters and what T2 and T3
 // stick out by, and no fixture, holder or zero: those are ours.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -25,7 +26,7 @@ class ImpellerInAChuck : public ::testing::Test {
     const char* corpus = std::getenv("NCSIM_CORPUS");
     if (corpus == nullptr) GTEST_SKIP() << "NCSIM_CORPUS is not set";
     programs_ = fs::path(corpus) / "seed004";
-    job_ = fs::temp_directory_path() / "ncsim_impeller_job.toml";
+    job_ = fs::temp_directory_path() / ("ncsim_impeller_job_" + std::to_string(getpid()) + ".toml");
   }
   void TearDown() override { fs::remove(job_); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/corpus/umc750_job.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -14,7 +16,7 @@ bool Umc750Job::Prepare(const std::string& test) {
   const char* corpus = std::getenv("NCSIM_CORPUS");
   if (corpus == nullptr) return false;
   source_ = fs::path(corpus) / "haas/umc750-ubc";
-  folder_ = fs::temp_directory_path() / ("ncsim_umc750_" + test);
+  folder_ = fs::temp_directory_path() / ("ncsim_umc750_" + test + std::to_string(getpid()));
   fs::remove_all(folder_);
   fs::create_directories(folder_);
   fs::copy(fs::path(NCSIM_SOURCE_DIR) / "models/haas_umc750", folder_ / "model",

@@ -2,6 +2,7 @@
 // Memory stays flat with the length of a program: what a hundred times more blocks adds in private
 // memory is bounded by a few megabytes (the text itself is mapped).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -35,8 +36,8 @@ long PrivateDirtyKilobytes() {
 }
 
 int Interpret(const machine::Machine& machine, int blocks) {
-  const fs::path path =
-      fs::temp_directory_path() / ("ncsim_flat_" + std::to_string(blocks) + ".nc");
+  const fs::path path = fs::temp_directory_path() / ("ncsim_flat_" + std::to_string(blocks) + "_" +
+                                                     std::to_string(getpid()) + ".nc");
   std::ofstream(path) << bench::WavySurface(blocks);
   Diagnostics diagnostics;
   const auto program = nc::Program::Load(path.string(), &diagnostics);
@@ -63,8 +64,8 @@ TEST(FlatMemory, AMillionBlocksNeedNoMoreThanTenThousand) {
 
 /// The path of a cutter-location file with as many points; its motions.
 int ReadPoints(int points) {
-  const fs::path path =
-      fs::temp_directory_path() / ("ncsim_flat_" + std::to_string(points) + ".cls");
+  const fs::path path = fs::temp_directory_path() / ("ncsim_flat_" + std::to_string(points) + "_" +
+                                                     std::to_string(getpid()) + ".cls");
   {
     std::ofstream out(path);
     out << "TOOL PATH/A,TOOL,T\nLOAD/TOOL,1\nFEDRAT/MMPM,100.\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // scenes/impeller_840d held against a closed form: how near T3's holder comes to the ring.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -58,7 +59,8 @@ json CheckAsJson(const fs::path& program, int expected_exit) {
 class SceneCopy {
  public:
   explicit SceneCopy(const std::string& name)
-      : folder_(fs::temp_directory_path() / ("ncsim_impeller_scene_" + name)) {
+      : folder_(fs::temp_directory_path() /
+                ("ncsim_impeller_scene_" + name + std::to_string(getpid()))) {
     fs::remove_all(folder_);
     fs::copy(kScene, folder_);
   }

@@ -3,6 +3,7 @@
 // fused multiplication differ in last bits, and the kernel has code for processors with and without
 // AVX2. glibc lets a program run as on an older processor (GLIBC_TUNABLES).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -38,7 +39,8 @@ struct Told {
 };
 
 Told Check(const std::string& environment, const std::string& arguments) {
-  const fs::path trace = fs::temp_directory_path() / "ncsim_processors_test.csv";
+  const fs::path trace =
+      fs::temp_directory_path() / ("ncsim_processors_" + std::to_string(getpid()) + ".csv");
   Told told;
   told.report = Output(environment + NCSIM_PROGRAM + " check " + arguments +
                        " --format json --trace " + trace.string());

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenes as a user runs them: what passes passes without a word, and each program of the crash
-// gallery is found out by the rule that it is named after (.nc: of a Haas, .mpf: of a SINUMERIK),
+// The scenes as a user runs them: what passes passes without a word, and each program of the
+// galleries is found out by the rule that it is named after (.nc: of a Haas, .mpf: of a SINUMERIK),
 // at the line that its first comment states, in the words that docs/findings.md shows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -27,20 +28,24 @@ struct Outcome {
   std::string text;
 };
 
-Outcome Check(const fs::path& program) {
+Outcome RunNcsim(const std::vector<std::string>& args) {
   std::ostringstream out, err;
   Outcome outcome;
-  outcome.code = app::Run({"check", program.string()}, out, err);
+  outcome.code = app::Run(args, out, err);
   outcome.text = out.str() + err.str();
   return outcome;
 }
 
-std::vector<std::string> Gallery() {
+Outcome Check(const fs::path& program) { return RunNcsim({"check", program.string()}); }
+
+std::vector<std::string> ProgramsOf(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(kRoot / "scenes/crash_gallery")) {
+  for (const auto& entry : fs::directory_iterator(kRoot / "scenes" / folder)) {
     const fs::path extension = entry.path().extension();
-    if (extension == ".nc" || extension == ".mpf")
-      names.push_back(entry.path().filename().string());
+    const std::string name = entry.path().filename().string();
+    if ((extension == ".nc" || extension == ".mpf") && name != "reference.nc") {
+      names.push_back(name);
+    }
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -62,15 +67,18 @@ TEST(Scenes, FiveAxisPasses) {
   EXPECT_EQ(outcome.code, app::kExitPass) << outcome.text;
 }
 
-// Every line that the README shows after "$ ncsim check PROGRAM", but for "...".
+// Every line that the README shows after "$ ncsim ...", but for "...".
 TEST(Scenes, TheReadmeShowsRealOutput) {
   std::ifstream readme(kRoot / "README.md");
-  const std::string prompt = "$ ncsim check ";
+  const std::string prompt = "$ ncsim ";
   fs::current_path(kRoot);
   std::string printed;
   int shown = 0;
   for (std::string line; std::getline(readme, line);) {
-    if (line.starts_with(prompt)) printed = "\n" + Check(line.substr(prompt.size())).text;
+    if (line.starts_with(prompt)) {
+      std::istringstream words(line.substr(prompt.size()));
+      printed = "\n" + RunNcsim({std::istream_iterator<std::string>(words), {}}).text;
+    }
     if (line.starts_with("```")) printed.clear();
     if (printed.empty() || line.starts_with(prompt) || line == "  ...") continue;
     EXPECT_NE(printed.find("\n" + line + "\n"), std::string::npos) << line;
@@ -79,19 +87,18 @@ TEST(Scenes, TheReadmeShowsRealOutput) {
   EXPECT_GE(shown, 8);
 }
 
-TEST(Scenes, TheGalleryHasEveryRule) {
-  const std::vector<std::string> names = Gallery();
+TEST(Scenes, TheGalleriesHaveEveryRule) {
+  std::vector<std::string> names = ProgramsOf("crash_gallery");
+  const std::vector<std::string> compared = ProgramsOf("compare_gallery");
+  names.insert(names.end(), compared.begin(), compared.end());
   for (const RuleInfo& rule : Rules()) {
     EXPECT_TRUE(std::count(names.begin(), names.end(), std::string(rule.id) + ".nc"))
-        << "no program in scenes/crash_gallery shows " << rule.id;
+        << "no program of the galleries shows " << rule.id;
   }
 }
 
-class CrashGallery : public ::testing::TestWithParam<std::string> {};
-
 // Line 0 in EXPECT is a finding about the whole run.
-TEST_P(CrashGallery, IsFoundAtItsLine) {
-  const fs::path program = kRoot / "scenes/crash_gallery" / GetParam();
+void ExpectFound(const fs::path& program, const Outcome& outcome) {
   const std::string rule = program.stem().string();
   std::ifstream in(program);
   std::string first;
@@ -101,14 +108,13 @@ TEST_P(CrashGallery, IsFoundAtItsLine) {
       std::regex_match(first, expect, std::regex(R"((?:\(|; )EXPECT (\d+): ([a-z-]+)\)?\r?)")))
       << first;
   ASSERT_EQ(expect[2], rule);
-  const Outcome outcome = Check(program);
-  const std::string where =
-      "/" + GetParam() + "(" + (expect[1] == "0" ? ": " : ":" + expect[1].str() + R"(:\d+: )");
+  const std::string where = "/" + program.filename().string() + "(" +
+                            (expect[1] == "0" ? ": " : ":" + expect[1].str() + R"(:\d+: )");
   std::smatch said;
   ASSERT_TRUE(
       std::regex_search(outcome.text, said, std::regex(where + "[^\\n]*\\[" + rule + "\\])")))
       << outcome.text;
-  const std::string example = "\n" + GetParam() + said[1].str() + "\n";
+  const std::string example = "\n" + program.filename().string() + said[1].str() + "\n";
   EXPECT_NE(Findings().find(example), std::string::npos) << "docs/findings.md lacks" << example;
   const Severity severity = Info(*RuleFromId(rule)).severity;
   if (severity == Severity::kError) {
@@ -119,11 +125,36 @@ TEST_P(CrashGallery, IsFoundAtItsLine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryProgram, CrashGallery, ::testing::ValuesIn(Gallery()),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           for (char& c : name) c = c == '-' || c == '.' ? '_' : c;
-                           return name;
-                         });
+std::string TestName(const testing::TestParamInfo<std::string>& test) {
+  std::string name = test.param;
+  for (char& c : name) c = c == '-' || c == '.' ? '_' : c;
+  return name;
+}
+
+class CrashGallery : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(CrashGallery, IsFoundAtItsLine) {
+  const fs::path program = kRoot / "scenes/crash_gallery" / GetParam();
+  ExpectFound(program, Check(program));
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryProgram, CrashGallery,
+                         ::testing::ValuesIn(ProgramsOf("crash_gallery")), TestName);
+
+class CompareGallery : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(CompareGallery, IsFoundAtItsLine) {
+  const fs::path folder = kRoot / "scenes/compare_gallery";
+  const fs::path program = folder / GetParam();
+  const Outcome outcome =
+      RunNcsim({"compare", (folder / "reference.nc").string(), program.string()});
+  ExpectFound(program, outcome);
+  EXPECT_NE(outcome.text.find(": 1 error, 0 unproven, 0 warnings; ") == std::string::npos,
+            outcome.text.find(": 0 errors, 0 unproven, 1 warning; ") == std::string::npos)
+      << outcome.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryProgram, CompareGallery,
+                         ::testing::ValuesIn(ProgramsOf("compare_gallery")), TestName);
 
 }  // namespace
