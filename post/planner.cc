@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "post/planner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,6 +48,8 @@ struct Work {
   ClFeed feed;
   bool rapid = false;
   bool hole = false;
+  /// Where the tool comes from above: the end, or the level over a hole.
+  ClPose approach;
 };
 
 }  // namespace
@@ -154,10 +157,13 @@ std::vector<Work> Planner::State::Collect(const Events& events) {
       if (motion->arc) work.arc = Transformed(X_PM, *motion->arc);
       work.feed = motion->feed;
       work.rapid = motion->rapid;
+      work.approach = work.end;
     } else if (const auto* hole = std::get_if<ClHole>(&events[i].what)) {
       if (hole->start) work.start = Transformed(X_PM, *hole->start);
       work.end = Transformed(X_PM, hole->point);
       work.hole = work.rapid = true;
+      work.approach = work.end;
+      work.approach.tip_M += std::max(hole->retract, hole->cycle->clearance) * work.end.axis_M;
     } else {
       continue;
     }
@@ -361,7 +367,7 @@ bool Planner::State::PlanSection(const Events& events, const std::vector<Work>& 
     return false;
   }
   const RotaryPath& path = *Choose(event_of(0), ways);
-  const ClPose begin = goes_on ? *works[first].start : works[first].end;
+  const ClPose begin = goes_on ? *works[first].start : works[first].approach;
   const auto start_of = [&](std::size_t axis) {
     for (const auto& rewind : path.rewinds) {
       if (rewind.at == axis) return rewind.before;

@@ -65,20 +65,18 @@ class Follower {
   }
 
  private:
+  /// The position itself, and one turn either way of an axis with limits: what is nearer to the
+  /// other limit leaves more to wind up.
   template <typename Add>
   void AddTurns(const Rotary& rotary, const Add& add) const {
     add(rotary);
     for (std::size_t k = 0; k < geometry_.num_rotary(); ++k) {
-      if (!std::isfinite(geometry_.limits().lower[k])) continue;
-      if (!std::isfinite(geometry_.limits().upper[k])) continue;
+      const double lower = geometry_.limits().lower[k], upper = geometry_.limits().upper[k];
+      if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
       for (const double sense : {-kTurn, kTurn}) {
         Rotary turned = rotary;
-        while (true) {
-          turned[k] += sense;
-          if (turned[k] < geometry_.limits().lower[k] - kSame) break;
-          if (turned[k] > geometry_.limits().upper[k] + kSame) break;
-          add(turned);
-        }
+        turned[k] += sense;
+        if (turned[k] > lower - kSame && turned[k] < upper + kSame) add(turned);
       }
     }
   }
