@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/compare/cl_toolpath.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <regex>
+#include <string_view>
 #include <variant>
 
 namespace ncsim::compare {
@@ -63,6 +67,21 @@ struct ClCurve {
   }
 };
 
+/// Of the words that are passed on to a post: those that neither move the tool nor turn or shift
+/// anything.
+bool LeavesPath(std::string_view major) {
+  constexpr std::array<std::string_view, 8> kWords = {"CLAMP",  "CLEARP", "COUPLE", "END",
+                                                      "LINTOL", "SEQNO",  "TMARK",  "UNLOAD"};
+  return std::find(kWords.begin(), kWords.end(), major) != kWords.end();
+}
+
+/// Nothing but addresses with numbers: "G53 Z0.", not "Stock Size X85.".
+bool IsNcText(const std::string& text) {
+  static const std::regex words(R"(\s*(/?\s*[A-Za-z]\s*=?\s*[-+]?[0-9.]+\s*)+;?\s*)");
+  constexpr std::size_t kLongest = 200;  // of a block; std::regex recurses with the length
+  return text.size() > kLongest || std::regex_match(text, words);
+}
+
 Pose Along(const Pose& point, double distance) { return {point.p + distance * point.u, point.u}; }
 
 }  // namespace
@@ -99,7 +118,15 @@ void ClToolpath::OnEvent(const ClEvent& event) {
   } else if (std::holds_alternative<post::ClDwell>(event.what)) {
     builder_.Dwell(event.where);
   } else if (const auto* word = std::get_if<post::cl::PostWord>(&event.what)) {
-    if (word->major == "ROTATE") NotFollowed(event, "what ROTATE turns was not followed");
+    if (!LeavesPath(word->major)) {
+      NotFollowed(event, "what " + word->major + " does to the path was not followed");
+    }
+  } else if (const auto* code = std::get_if<post::cl::Code>(&event.what)) {
+    if (code->letter == 'G') NotFollowed(event, "the G code of a PREFUN was not followed");
+  } else if (const auto* text = std::get_if<post::cl::Text>(&event.what)) {
+    if (text->kind == post::cl::Text::Kind::kInsert && IsNcText(text->text)) {
+      NotFollowed(event, "the NC words of an INSERT were not followed");
+    }
   }
 }
 

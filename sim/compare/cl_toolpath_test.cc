@@ -72,10 +72,21 @@ TEST_F(ClToolpathTest, AHoleIsAFeedToItsBottom) {
   EXPECT_NEAR(path.pieces.front().feed, 2.0, 1e-12);
 }
 
-TEST_F(ClToolpathTest, WhatTurnsTheTableIsNotFollowed) {
-  Read(Nx("FEDRAT/MMPM,100.0\nROTATE/TABLE,ATANGL,90,CLW\nRAPID\nGOTO/0.0,0.0,20.0,0.0,0.0,1.0\n"));
-  ASSERT_EQ(findings_.size(), 1U);
-  EXPECT_EQ(findings_[0].rule, Rule::kUnsupportedCode);
+TEST_F(ClToolpathTest, WhatMovesOrTurnsUnseenIsNotFollowed) {
+  const std::string rest = "RAPID\nGOTO/0.0,0.0,20.0,0.0,0.0,1.0\n";
+  for (const char* line :
+       {"ROTATE/TABLE,ATANGL,90,CLW", "ROTABL/90", "ROTHED/30", "HEAD/2", "SET/MODE,INCR", "RETRCT",
+        "PPFUN/1", "PREFUN/91", "INSERT G53 Z0.", "INSERT G0Z100M8"}) {
+    Read(Nx("FEDRAT/MMPM,100.0\n" + std::string(line) + "\n" + rest));
+    ASSERT_EQ(findings_.size(), 1U) << line;
+    EXPECT_EQ(findings_[0].rule, Rule::kUnsupportedCode) << line;
+    EXPECT_EQ(findings_[0].where.line, 6) << line;
+  }
+  for (const char* line : {"SEQNO/ON", "CLAMP/ON", "AUXFUN/8", "INSERT Stock Size X85. Y38.",
+                           "INSERT STOP  change fixture", "PPRINT G0 Z1"}) {
+    Read(Nx("FEDRAT/MMPM,100.0\n" + std::string(line) + "\n" + rest));
+    EXPECT_TRUE(findings_.empty()) << line;
+  }
 }
 
 }  // namespace
