@@ -31,7 +31,8 @@ class Subdivision {
         options_(options),
         frame_(frame),
         curve_(curve),
-        chords_(chords || frame.mode == PlanMode::kAxes) {}
+        chords_(chords || frame.mode == PlanMode::kAxes),
+        great_circle_(options.abilities[static_cast<std::size_t>(frame.mode)].great_circle) {}
 
   struct Node {
     double t = 0.0;
@@ -55,7 +56,7 @@ class Subdivision {
  private:
   /// The control's way from a to b keeps to the curve.
   bool Holds(const Node& a, const Node& b) const {
-    const bool turns = a.rotary != b.rotary;
+    const bool turns = a.rotary != b.rotary && !great_circle_;
     if (!turns && !chords_) return true;
     const Eigen::Vector3d tip_a = curve_.Tip(a.t), tip_b = curve_.Tip(b.t);
     const bool bows = turns && frame_.mode == PlanMode::kAxes;
@@ -83,8 +84,18 @@ class Subdivision {
   const PlanOptions& options_;
   const MoveFrame& frame_;
   const ToolCurve& curve_;
-  bool chords_;  ///< The tip goes straight from node to node.
+  bool chords_;        ///< The tip goes straight from node to node.
+  bool great_circle_;  ///< As PlanAbilities.
 };
+
+/// Chords that keep to an arc; three in half a turn at least: of fewer the ends look like a short
+/// line.
+int PartsOf(const ClArc& arc, double tolerance) {
+  const double most =
+      2.0 * std::acos(1.0 - std::min(1.0, 0.999 * tolerance / std::max(arc.radius, 1e-6)));
+  const int halves = 1 + static_cast<int>(arc.sweep / std::numbers::pi);
+  return std::max(3 * halves, static_cast<int>(std::ceil(arc.sweep / most)));
+}
 
 /// The tool stands still, and the second axis turns to where the next motion needs it.
 void TurnAtPole(const PartGeometry& geometry, const PlanOptions& options, const MoveFrame& frame,
@@ -172,8 +183,7 @@ bool FeedMoves(const PartGeometry& geometry, const PlanOptions& options, const M
   }
   std::vector<Subdivision::Node> nodes;
   const Subdivision subdivision(geometry, options, frame, curve, arc.has_value());
-  // An arc of half a turn and more looks like a short line from its ends: begin with thirds.
-  const int parts = arc ? 3 * (1 + static_cast<int>(arc->sweep / std::numbers::pi)) : 1;
+  const int parts = arc ? PartsOf(*arc, kOfTolerance * options.tolerance) : 1;
   Subdivision::Node last{0.0, begin};
   for (int i = 1; i <= parts; ++i) {
     Subdivision::Node next{static_cast<double>(i) / parts, to};

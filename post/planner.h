@@ -22,6 +22,7 @@ struct PlanAbilities {
   std::array<bool, 3> arcs{true, true, true};  ///< By PlanPlane.
   bool helices = true;                         ///< Arcs that leave their plane.
   bool holes = true;                           ///< Cycles.
+  bool great_circle = false;                   ///< The control leads the tool axis on one.
 };
 
 struct PlanOptions {

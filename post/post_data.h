@@ -119,6 +119,7 @@ struct PostData {
   std::string dialect;    ///< Of sim/nc: how what is written is read.
   std::string extension;  ///< Of the files: ".nc"
   ClUnit unit = ClUnit::kMillimetre;
+  std::map<std::string, std::string> constants;  ///< Texts for {name}.
   std::vector<NumberFormat> formats;
   std::vector<WordFormat> words;
   /// Codes by group and key, as in GroupTable(); nullopt where the control has none.

@@ -210,22 +210,22 @@ class PostLoader {
   void LoadConstants(TomlTable* table) {
     if (std::optional<TomlTable> constants = table->Table("constants")) {
       for (const TomlValue& child : constants->value().children) {
-        if (const auto text = constants->String(child.key)) constants_[child.key] = *text;
+        if (const auto text = constants->String(child.key)) data_.constants[child.key] = *text;
       }
     }
     for (const auto& [name, text] : settings_.constants) {
-      if (constants_.count(name) == 0) {
+      if (data_.constants.count(name) == 0) {
         diagnostics_->Error(
             file_, 0, 0,
             "the post has no constant '" + name + "'" + DidYouMean(name, ConstantNames()));
       }
-      constants_[name] = text;
+      data_.constants[name] = text;
     }
   }
 
   std::vector<std::string> ConstantNames() const {
     std::vector<std::string> names;
-    for (const auto& constant : constants_) names.push_back(constant.first);
+    for (const auto& constant : data_.constants) names.push_back(constant.first);
     return names;
   }
 
@@ -261,7 +261,8 @@ class PostLoader {
     TemplateName found;
     unsigned has = kAll;
     std::optional<ValueKind> kind;
-    if (const auto constant = constants_.find(std::string(name)); constant != constants_.end()) {
+    if (const auto constant = data_.constants.find(std::string(name));
+        constant != data_.constants.end()) {
       found.kind = TemplateNode::Kind::kLiteral;
       found.text = constant->second;
     } else if (const auto group = GroupNamed(name)) {
@@ -323,7 +324,7 @@ class PostLoader {
     std::vector<std::string> names = ValueNames();
     for (const GroupInfo& group : GroupTable()) names.emplace_back(group.name);
     for (const WordFormat& word : data_.words) names.push_back(word.name);
-    for (const auto& constant : constants_) names.push_back(constant.first);
+    for (const auto& constant : data_.constants) names.push_back(constant.first);
     return names;
   }
 
@@ -479,7 +480,6 @@ class PostLoader {
   const std::string& file_;
   const PostSettings& settings_;
   Diagnostics* diagnostics_;
-  std::map<std::string, std::string> constants_;
   PostData data_;
 };
 

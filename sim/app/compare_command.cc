@@ -151,6 +151,8 @@ class Comparing {
     Diagnostics diagnostics;
     post::ClOptions options;
     options.need_tool = false;  // Tools are not compared.
+    options.unit = options_.cl.unit;
+    options.flavour = options_.cl.flavour;
     post::ClPath path(side->program, files_.Add(side->name), options, &diagnostics);
     compare::ClToolpath toolpath(compare::ChordErrorFor(result_.tolerances));
     for (post::ClEvent event; path.Next(&event); ++side->report.blocks) toolpath.OnEvent(event);
