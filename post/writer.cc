@@ -237,7 +237,7 @@ void NcWriter::Handle(const PlanOperation& operation) {
   const PostMode* mode = data_.Mode(operation.mode, info_.mode);
   if (mode == nullptr) Problem("the post has no mode of the kind that this operation needs");
   // Else it goes on where the last one has left the tool.
-  const bool anew = operation.tool_change || mode != mode_ || !positioned_;
+  const bool anew = operation.tool_change || mode != mode_ || !positioned_ || open_operation_;
   if (anew) {
     Leave();
     EndFile();

@@ -16,6 +16,7 @@
 #include "post/post_options.h"
 #include "post/post_program.h"
 #include "sim/app/app.h"
+#include "sim/app/compare_command.h"
 #include "sim/app/post_candidates.h"
 #include "sim/app/program_input.h"
 #include "sim/base/text.h"
@@ -67,8 +68,12 @@ class Posting {
         FindPassing([&](const auto& choice) { return Candidate(options, choice); }, limit, &notes);
     if (!best || !Write(best->program, out)) return kExitBadInput;
     for (const std::string& note : notes) Complain(name_ + ": note: " + note);
+    std::ostream& report = options_.out.empty() ? *err_ : out;
+    TellWritten(best->program, report);
+    if (!options_.check) return kExitPass;
+    const int held = HoldAgainstCl(best->program, report);
     *err_ << best->outcome.messages;
-    return Tell(*best, options_.out.empty() ? *err_ : out);
+    return CombinedExit({held, TellChecked(best->outcome, report)});
   }
 
  private:
@@ -184,6 +189,7 @@ class Posting {
 
   post::PlanOptions PlanOptions() const {
     post::PlanOptions options = post::PlanOptionsOf(*post_, options_.mode);
+    options.separate = options_.file_for_operation;
     if (options_.tolerance) options.tolerance = *options_.tolerance;
     return options;
   }
@@ -235,25 +241,40 @@ class Posting {
     return WriteOperations(program) && WriteFile(options_.out, program.files.front().text);
   }
 
-  /// What was written and what check says of it.
-  int Tell(const Judged& judged, std::ostream& out) {
+  void TellWritten(const post::PostedProgram& program, std::ostream& out) const {
     std::size_t lines = 0;
-    for (const post::PostedFile& file : judged.program.files) {
+    for (const post::PostedFile& file : program.files) {
       lines += static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
     }
     out << name_ << ": " << (options_.out.empty() ? "" : "written: ")
-        << report::Count(lines, "line") << ", " << report::Count(judged.program.moves, "move")
-        << " of " << report::Count(judged.program.operations.size(), "operation") << " with "
+        << report::Count(lines, "line") << ", " << report::Count(program.moves, "move") << " of "
+        << report::Count(program.operations.size(), "operation") << " with "
         << report::Count(summary_.tools.size(), "tool");
-    if (judged.program.files.size() > 1) {
-      out << ", in " << report::Count(judged.program.files.size(), "file");
-    }
+    if (program.files.size() > 1) out << ", in " << report::Count(program.files.size(), "file");
     out << "\n";
+  }
+
+  /// What the control makes of the program, and what the file says: the same motion? Where the part
+  /// stands does not matter for that: what is assumed of it is check's matter.
+  int HoldAgainstCl(const post::PostedProgram& program, std::ostream& out) {
+    CompareOptions compare;
+    compare.reference = options_.cl_file;
+    compare.tested = name_;
+    compare.model = model_path_;
+    compare.job = job_.path;
+    compare.assume = {"all"};
+    compare.cl = options_.cl;
+    const HeldTogether held =
+        CompareText(compare, nc::Program::FromText(name_, program.files.front().text), *err_);
+    out << held.text;
+    return held.exit_code;
+  }
+
+  int TellChecked(const ProgramOutcome& outcome, std::ostream& out) const {
     if (checked_) {
-      out << judged.outcome.report;
-      return judged.outcome.exit_code;
+      out << outcome.report;
+      return outcome.exit_code;
     }
-    if (!options_.check) return kExitPass;
     out << name_
         << ": unproven: not checked, for no job says where the part stands and which tools "
         << "there are (--job, or " << name_ << ".job.toml)\n";
