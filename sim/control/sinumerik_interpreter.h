@@ -226,10 +226,14 @@ class SinumerikInterpreter {
       const SourcePosition& where);
   std::optional<kinematics::RotarySolution> TurnedSwivel(
       std::vector<kinematics::RotarySolution> solutions, const std::array<double, 2>& here,
-      const SwivelPlane& plane, long direction, const SourcePosition& where);
+      const SwivelPlane& plane, const SinumerikCycleArguments& arguments,
+      const SourcePosition& where);
+  void AssumeOfSwivel(std::string_view setting, bool stated, std::string_view name,
+                      std::string_view instead);
   std::optional<kinematics::RotarySolution> PoleSwivel(kinematics::RotarySolution solution,
                                                        const std::array<double, 2>& here,
-                                                       const SwivelPlane& plane, long direction,
+                                                       const SwivelPlane& plane,
+                                                       const SinumerikCycleArguments& arguments,
                                                        const SourcePosition& where);
   bool RetractToSwivel(const SinumerikCycleArguments& arguments, const SourcePosition& where);
   void TurnTables(const AxisValues& target, bool tracks);

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sim/base/units.h"
 #include "sim/control/command.h"
@@ -19,6 +20,11 @@
 namespace ncsim::control {
 
 inline constexpr int kNumFixedPoints = 4;
+
+/// What CYCLE800 reads, by the names in model and job.
+inline constexpr std::string_view kSwivelMask = "SD55221", kSwivelReference = "swivel_reference";
+inline constexpr std::array<std::string_view, 3> kSwivelRetract = {"TC_CARR38", "TC_CARR39",
+                                                                   "TC_CARR40"};
 
 struct SinumerikSettings {
   /// A, B, C.
@@ -53,6 +59,9 @@ struct SinumerikSettings {
   std::optional<unsigned> swivel_mask;  ///< SD55221.
   int swivel_reference = 0;             ///< Rotary axis that _DIR refers to, 1 or 2; 0: unstated.
   std::array<std::optional<double>, 3> swivel_retract;  ///< $TC_CARR38 to 40: X, Y, Z; mm.
+  /// Of the three above, those that only a nominal model states: assumptions of programs that use
+  /// them, by name.
+  std::map<std::string, std::string> swivel_nominal;
   /// MD30600: machine values of each axis; mm, rad.
   std::array<std::array<std::optional<double>, kNumAxes>, kNumFixedPoints> fixed_points{};
   unsigned skip_levels = 0;  ///< Bit n: `/n` is left out.

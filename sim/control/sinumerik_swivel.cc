@@ -40,6 +40,10 @@ bool IsDirectSwivel(const SinumerikCycleArguments& arguments) {
   return ModeOf(arguments) == kDirect;
 }
 
+bool IsAxisByAxisSwivel(const SinumerikCycleArguments& arguments) {
+  return ModeOf(arguments) == kAxisByAxis;
+}
+
 std::optional<Eigen::Matrix3d> SwivelRotation(const SinumerikCycleArguments& arguments,
                                               std::string* unsupported) {
   const std::array<double, 3> angles = {Radians(arguments.Number("_A")),

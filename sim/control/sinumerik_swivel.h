@@ -35,6 +35,7 @@ std::optional<Eigen::Matrix3d> SwivelRotation(const SinumerikCycleArguments& arg
                                               std::string* unsupported);
 /// _MODE bits 7, 6 = 11: _A and _B are positions of the two rotary axes.
 bool IsDirectSwivel(const SinumerikCycleArguments& arguments);
+bool IsAxisByAxisSwivel(const SinumerikCycleArguments& arguments);
 
 /// The one of two solutions that _DIR means: with 1 the greater, with -1 the smaller angle of the
 /// reference axis (0 or 1, in FiveAxis::rotary() order); the only one, whatever _DIR says. Angles
