@@ -82,6 +82,7 @@ void ReadOrientation(const SettingSource& source, const machine::Machine& machin
   settings->orientation_by_g50 =
       Whole(source, "MD21102", 0) == 1 || Whole(source, "MD21103", 0) == 1;
   settings->orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
+  settings->leaning_mode = Whole(source, "MD21094", 0);
   settings->pole_mode = Whole(source, "MD21108", 0);
   settings->pole_stated = source.Text("MD21108").has_value();
   if (const auto limit = source.Number("MD24540")) settings->pole_limit = Radians(*limit);
@@ -127,6 +128,7 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.rpy = Whole(source, "MD10600", 1) == 1;
   settings.frame_keeps_translations = frame_mode == 1;
   settings.frame_stays = frame_mode == 2;
+  if (const auto apart = source.Number("MD24000")) settings.fine_shift = *apart == 1.0;
   settings.suppress_length = Whole(source, "MD10760", 0);
   settings.edge_after_change = Whole(source, "MD20270", 1);
   settings.circle_error = source.Number("MD21000").value_or(settings.circle_error);

@@ -36,6 +36,7 @@ struct SinumerikSettings {
   std::array<RotaryAxis, 3> rotary{};
   std::map<int, std::string> start_codes;  ///< MD20150, by G group.
   bool rpy = true;                         ///< MD10600 = 1.
+  std::optional<bool> fine_shift;          ///< MD24000: ATRANS makes a shift of its own.
   bool frame_keeps_translations = false;   ///< MD10602 = 1.
   bool frame_stays = false;                ///< MD10602 = 2.
   int suppress_length = 0;                 ///< MD10760.
@@ -48,6 +49,7 @@ struct SinumerikSettings {
   int pole_mode = 0;                       ///< MD21108.
   double pole_limit = 2.0 * kPi / 180.0;   ///< MD24540, rad: about the pole, what MD21108 is for.
   bool pole_stated = false;                ///< Whether anybody states MD21108.
+  int leaning_mode = 0;                    ///< MD21094.
   int limit_mode = 0;                      ///< MD21180.
   bool limit_mode_stated = false;          ///< Not only by a nominal model.
   /// SD5544n by the units of CYCLE832's type, where anybody states them: deg for each mm.

@@ -81,6 +81,23 @@ TEST(SinumerikSwivel, SolidAngleAndDirect) {
   EXPECT_LT((PoseOf(direct, 5).point - PoseOf(direct, 4).point - Vector3d::UnitX()).norm(), 1e-9);
 }
 
+// Operating Manual Milling: the plane's traces in the old YZ and ZX planes make the angles with Y
+// and X, and the new X lies in the old ZX plane. So the normal is along (tan b, -tan a, 1).
+TEST(SinumerikSwivel, ProjectionAnglesAreThoseOfThePlanesTraces) {
+  const double a = Radians(10.0), b = Radians(20.0);
+  Matrix3d plane;
+  plane.col(0) = Vector3d(std::cos(b), 0.0, -std::sin(b));
+  plane.col(2) = Vector3d(std::tan(b), -std::tan(a), 1.0).normalized();
+  plane.col(1) = plane.col(2).cross(plane.col(0));
+  const std::string call = "CYCLE800(0,\"\",0,", rest = "0,0,0,0,1)\nG0 X7 Y8 Z9\n";
+  ExpectInPlane(Simulate(call + "185,1,2,3,10,20," + rest), 4, {7, 8, 9}, plane, {1, 2, 3});
+  ExpectInPlane(Simulate(call + "182,1,2,3,20,10," + rest), 4, {7, 8, 9}, plane, {1, 2, 3});
+  ExpectInPlane(Simulate(call + "185,1,2,3,10,20,3" + rest), 4, {7, 8, 9}, plane * Turn(2, 30),
+                {1, 2, 3});
+  // One angle alone is a turn about its axis.
+  ExpectInPlane(Simulate(call + "185,0,0,0,0,20," + rest), 4, {7, 8, 9}, Turn(1, 20));
+}
+
 TEST(SinumerikSwivel, AnglesOfAPostGiveTheToolAxesOfOthers) {
   // One part posted for four controls: these angles stand for these tool axes.
   const TestRun run =
