@@ -28,8 +28,13 @@ namespace {
 class ProgramCheck {
  public:
   ProgramCheck(const CheckOptions& options, const std::string& program,
-               const ProgressReport& progress, const collision::OutcomeCache* cache)
-      : options_(options), name_(program), progress_(progress), cache_(cache) {}
+               const ProgressReport& progress, const collision::OutcomeCache* cache,
+               std::shared_ptr<const nc::Program> text)
+      : options_(options),
+        name_(program),
+        progress_(progress),
+        cache_(cache),
+        program_(std::move(text)) {}
 
   ProgramOutcome Run() {
     outcome_.exit_code = kExitBadInput;
@@ -44,6 +49,8 @@ class ProgramCheck {
     if (!CloseTrace()) return std::move(outcome_);
     Judge();
     Report();
+    outcome_.findings = std::move(result_.findings);
+    outcome_.files = std::move(files_);
     return std::move(outcome_);
   }
 
@@ -55,7 +62,7 @@ class ProgramCheck {
   }
 
   bool LoadProgram() {
-    program_ = nc::Program::Load(name_, &diagnostics_);
+    if (program_ == nullptr) program_ = nc::Program::Load(name_, &diagnostics_);
     return program_ != nullptr && !diagnostics_.has_errors();
   }
 
@@ -261,8 +268,9 @@ class ProgramCheck {
 }  // namespace
 
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
-                            const ProgressReport& progress, const collision::OutcomeCache* cache) {
-  return ProgramCheck(options, program, progress, cache).Run();
+                            const ProgressReport& progress, const collision::OutcomeCache* cache,
+                            std::shared_ptr<const nc::Program> text) {
+  return ProgramCheck(options, program, progress, cache, std::move(text)).Run();
 }
 
 }  // namespace ncsim::app

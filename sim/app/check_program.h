@@ -3,10 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "sim/app/options.h"
 #include "sim/app/progress.h"
+#include "sim/base/finding.h"
+#include "sim/nc/program.h"
 
 namespace ncsim::collision {
 class OutcomeCache;
@@ -21,10 +25,14 @@ struct ProgramOutcome {
   std::string messages;  ///< Trouble with the inputs, for standard error.
   /// As in collision::CollisionResult.
   std::uint64_t outcomes = 0, recalled = 0;
+  std::vector<Finding> findings;  ///< As in report::CheckResult.
+  SourceFiles files;              ///< That they are in.
 };
 
 /// Checks one program. `progress`, if not empty, is told how far it is. `cache` may be null.
+/// `text`: the program, where it is in no file yet; null: it is read from the file `program`.
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
-                            const ProgressReport& progress, const collision::OutcomeCache* cache);
+                            const ProgressReport& progress, const collision::OutcomeCache* cache,
+                            std::shared_ptr<const nc::Program> text = nullptr);
 
 }  // namespace ncsim::app
