@@ -2,8 +2,8 @@
 #include "sim/app/post_command.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -33,6 +33,9 @@ namespace fs = std::filesystem;
 /// Candidates that are checked at most: each costs a whole run.
 constexpr int kMaxCandidates = 40;
 
+/// mm that a tool's diameter may differ: files print four decimals, some in inches.
+constexpr double kSameDiameter = 0.005;
+
 /// 123 of "O00123", where a name is such.
 std::optional<int> NumberOf(const std::string& name) {
   if (name.size() < 2 || (name[0] != 'O' && name[0] != 'o')) return std::nullopt;
@@ -60,7 +63,9 @@ class Posting {
 
   int Run(std::ostream& out) {
     const bool loaded = LoadJob() && LoadMachine() && LoadPost() && LoadCl() && Place();
-    if (!loaded || !Say(diagnostics_)) return kExitBadInput;
+    if (!loaded) return kExitBadInput;
+    HoldTools();
+    if (!Say(diagnostics_)) return kExitBadInput;
     const post::PlanOptions options = PlanOptions();
     const int limit = checked_ ? kMaxCandidates : 1;
     std::vector<std::string> notes;
@@ -185,6 +190,22 @@ class Posting {
     posting_.info.mode = options_.mode;
     posting_.info.tools = summary_.tools;
     return true;
+  }
+
+  /// The tools of the job are what the machine has; a file made for others would cut another part.
+  void HoldTools() {
+    if (!job_.has_tools) return;
+    const machine::ToolTable table{job_.tools};
+    for (const post::ClTool& tool : summary_.tools) {
+      if (!tool.number || !tool.diameter) continue;
+      const std::string name = "T" + std::to_string(*tool.number);
+      const machine::Tool* stated = table.Find(*tool.number);
+      if (stated == nullptr || std::abs(stated->diameter - *tool.diameter) <= kSameDiameter)
+        continue;
+      diagnostics_.Warning(job_.path, 0, 0,
+                           name + " cuts " + Short(stated->diameter) + " mm wide in the job, and " +
+                               Short(*tool.diameter) + " mm in " + options_.cl_file);
+    }
   }
 
   post::PlanOptions PlanOptions() const {

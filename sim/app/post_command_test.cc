@@ -130,6 +130,19 @@ TEST_F(PostCommandTest, ThePositionThatCheckPassesIsTaken) {
   EXPECT_EQ(err_.str(), "");
 }
 
+TEST_F(PostCommandTest, ToolsThatAreNotThoseOfTheFile) {
+  std::string job = JobAt("0.0");
+  const std::string diameter = "diameter = 10.0";
+  job.replace(job.find(diameter), diameter.size(), "diameter = 12.0");
+  Write("slant.job.toml", job);
+  Post({"-o", Path("slant.nc")});
+  EXPECT_THAT(err_.str(), HasSubstr("warning: T1 cuts 12 mm wide in the job, and 10 mm in "));
+  job.replace(job.find("diameter = 12.0"), diameter.size(), "diameter = 10.004");
+  Write("slant.job.toml", job);
+  Post({"-o", Path("slant.nc")});
+  EXPECT_THAT(err_.str(), Not(HasSubstr("warning")));
+}
+
 TEST_F(PostCommandTest, WhatCannotBePostedLeavesNoFile) {
   std::string text = kSlant;
   text.replace(text.find("GOTO/0,20,0"), 11, "GOTO/0,20,0,0,0,-1");
