@@ -45,7 +45,13 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
       motionless_m_(std::move(motionless_m)),
       contour_(
           CompensationOptions(),
-          [this](const Command& command) { parts_.to_motion->Execute(command); },
+          [this](const Command& command) {
+            if (under_way_ != 0) {
+              Unsupported("POSA", command.where,
+                          "what moves before WAITP, while the axis is still under way");
+            }
+            parts_.to_motion->Execute(command);
+          },
           [this](const Finding& finding) {
             // Which corners compensation cannot go round is the other control's rule.
             const bool alarm = finding.severity == Severity::kError;
@@ -56,7 +62,7 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
           [this](const Finding& finding) {
             // The control shortens a corner that does not fit, or leaves it out.
             log_.ReportOnce("corner", Rule::kUnsupportedCode, finding.where,
-                            "RND, CHR or CHF was not simulated here: " + finding.message);
+                            "RND, RNDM, CHR or CHF was not simulated here: " + finding.message);
           }),
       tool_(start_tool) {
   for (const nc::SinumerikCommand& row : nc::Sinumerik840dGCodes()) {
@@ -348,6 +354,10 @@ void SinumerikInterpreter::ApplyTechnology() {
   number("OTOL", kPi / 180.0, &otol_);
   number("ADIS", mm_, &adis_);
   number("ADISPOS", mm_, &adispos_);
+  if (Peek("RNDM") != nullptr) {
+    const SinumerikItem* radius = Take("RNDM");
+    if (radius != nullptr) modal_rounding_ = std::max(0.0, radius->value * mm_);
+  }
   for (const std::string_view name : {"SPOS", "SPOSA"}) {
     if (Peek(name) != nullptr && Take(name) != nullptr) spindle_ = 0;
   }
@@ -420,6 +430,8 @@ void SinumerikInterpreter::ExecuteCalls() {
       CancelFrame(true, Where(item));
     } else if (command.name == "TRAFOOF") {
       if (traori_) CancelFrame(false, Where(item));
+    } else if (command.name == "WAITP") {
+      WaitForAxes(arguments);
     } else if (command.support == Support::kUnsupported) {
       Unsupported(command.name, Where(item), std::string(command.meaning));
     }

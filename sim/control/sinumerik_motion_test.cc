@@ -79,15 +79,35 @@ TEST(SinumerikMotion, CornersAreRoundedAndChamfered) {
   // At 60 deg of turn a chamfer of 3 sqrt(3) lies 3 from the corner.
   EXPECT_EQ(ways("CHF=3*SQRT(3)", "X=10+10*COS(60) Y=10*SIN(60)"), "7,0 11.5,2.5981 15,8.6603 ");
   EXPECT_EQ(ways("RND=0"), "10,0 10,10 ");
-  EXPECT_EQ(
-      ways("RND=11"),
-      "10,0 10,10 RND, CHR or CHF was not simulated here: corner rounding RND=11 mm needs 11 mm "
-      "of moves that are 10 and 10 mm long");
-  EXPECT_EQ(
-      ways("CHF=1", "G2 Y10 CR=6"),
-      "10,0 10,10 RND, CHR or CHF was not simulated here: chamfer CHF=1 mm is not followed by a "
-      "linear move (G01)");
-  EXPECT_EQ(ways("RNDM=1").substr(0, 30), "10,0 10,10 RNDM was not simula");
+  EXPECT_EQ(ways("RND=11"),
+            "10,0 10,10 RND, RNDM, CHR or CHF was not simulated here: corner rounding RND=11 mm "
+            "needs 11 mm "
+            "of moves that are 10 and 10 mm long");
+  EXPECT_EQ(ways("CHF=1", "G2 Y10 CR=6"),
+            "10,0 10,10 RND, RNDM, CHR or CHF was not simulated here: chamfer CHF=1 mm is not "
+            "followed by a "
+            "linear move (G01)");
+}
+
+TEST(SinumerikMotion, RndmRoundsUntilItIs0) {
+  // The same manual: in the block that leads to the corner, as RND in each such block.
+  const auto points = [](const std::string& text) {
+    std::string ends;
+    const TestRun run = SinumerikTest().Run(Head("G1 F500 Z10\n" + text));
+    for (const motion::Motion& motion : run.motions) {
+      ends += Short(motion.q1()[kJointX]) + "," + Short(motion.q1()[kJointY]) + " ";
+    }
+    return ends + run.Text();
+  };
+  EXPECT_EQ(points("RNDM=2 X10\nY10\nX0 RNDM=0\nY0\n"), points("X10 RND=2\nY10 RND=2\nX0\nY0\n"));
+  EXPECT_EQ(points("RNDM=2\nX10\nG4 F1\nY10\nRNDM=0 X0\nG0 Z20\n"),
+            points("X10 RND=2\nG4 F1\nY10 RND=2\nX0\nG0 Z20\n"));
+  for (const char* what : {"RNDM=2 X10\nY10 RND=1\nX0 RNDM=0\n", "RNDM=2 X10\nG0 Y10\n",
+                           "RNDM=2 X10\nZ9\nX0 RNDM=0\n", "RNDM=2 X10\nG2 X0 CR=9\n"}) {
+    EXPECT_TRUE(
+        SinumerikTest().Run(Head(std::string("G1 F500\n") + what)).Has(Rule::kUnsupportedCode))
+        << what;
+  }
 }
 
 TEST(SinumerikMotion, FixedPointsAreMachineData) {
@@ -364,8 +384,24 @@ TEST(SinumerikMotion, PositionsOneAxisInABlock) {
   // It is no path motion: a modal call (here of a cycle that is not simulated) does not follow it.
   EXPECT_FALSE(
       SinumerikTest().Run(Head("MCALL CYCLE61(1)\nPOS[X]=5\nMCALL\n")).Has(Rule::kUnsupportedCode));
-  for (const char* block : {"POS[X]=5 POS[Y]=1", "POS[X]=1 Y2", "POSA[X]=1"}) {
+  for (const char* block : {"POS[X]=5 POS[Y]=1", "POS[X]=1 Y2"}) {
     EXPECT_TRUE(SinumerikTest().Run(Head(std::string(block) + "\n")).Has(Rule::kUnsupportedCode));
+  }
+}
+
+TEST(SinumerikMotion, PosaIsPosWhereWaitpFollows) {
+  // Manual, "Positioning axes": the axis may go on beyond its block, and WAITP waits for it.
+  TestRun run =
+      SinumerikTest().Run(Head("POSA[X]=5 FA[X]=600\nR1=2\nWAITP(X)\nX7\nPOSA[C]=90\nM30\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 3), "X15 Y20 Z-100 B0 C0");
+  EXPECT_NEAR(run.Last(3).duration, 0.5, 1e-9);
+  EXPECT_EQ(EndOf(run, 7), "X17 Y20 Z-100 B0 C90");
+  for (const char* rest : {"Y2", "WAITP(Y)\nY2", "POSA[Y]=2", "T2 M6", "SUPA G0 Z0 D0"}) {
+    run = SinumerikTest().Run(Head("POSA[X]=5\n" + std::string(rest) + "\n"));
+    const Finding* found = run.Find(Rule::kUnsupportedCode);
+    ASSERT_NE(found, nullptr) << rest;
+    EXPECT_EQ(found->message.substr(0, 4), "POSA");
   }
 }
 
