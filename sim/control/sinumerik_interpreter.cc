@@ -23,6 +23,7 @@ ContourOptions CompensationOptions() {
   ContourOptions options;
   options.type_b = false;         // NORM: straight to the point beside the contour's start.
   options.fanuc_corners = false;  // G450: an arc about an outside corner.
+  options.long_lead = false;      // NORM asks for no length (W1 09/2011, 18.5.3).
   options.corner_names = {"RND=", "CHR=", "CHF="};
   return options;
 }
@@ -257,6 +258,8 @@ void SinumerikInterpreter::UpdateModes() {
     if (active_.length != 0.0) frame_dirty_ = new_length_ = true;
   }
   incremental_ = Is(kSinDistance, "G91");
+  // CDOF: the corner with the next block, and nothing beyond it.
+  contour_.LookAhead(Is(kSinBottleneck, "CDON"));
   mm_ = Is(kSinUnits, "G70") || Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
   feed_mm_ = Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
 }

@@ -48,6 +48,7 @@ enum SinumerikGroup {
   kSinUnits = 13,
   kSinDistance = 14,
   kSinFeedMode = 15,
+  kSinBottleneck = 23,
   kSinOrientationSystem = 25,
   kSinCompressor = 30,
   kSinOrientationAngles = 50,

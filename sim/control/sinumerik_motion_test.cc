@@ -352,6 +352,26 @@ TEST(SinumerikMotion, CompensationNeedsAnEdge) {
   EXPECT_NE(run.Text().find("10750"), std::string::npos) << run.Text();
 }
 
+TEST(SinumerikMotion, NormGoesStraightBesideTheContourHoweverNearItStarts) {
+  // W1 09/2011, 18.5.3: NORM goes on a line to where the normal of the contour's start has the
+  // centre, from behind the contour too, and from its end likewise. Radius 5, left of Y is -X.
+  const TestRun run = SinumerikTest().Run(Head("G1 F100 G41 X2\nY20\nG40 X3\nX4\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 3), "X7 Y20 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 4), "X7 Y40 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 5), "X13 Y40 Z-100 B0 C0");
+}
+
+TEST(SinumerikMotion, BottlenecksAreLookedForUnderCdonOnly) {
+  // NC programming 12/2019, p. 286: CDOF looks at the corner with the next block only. A pocket
+  // whose third side ends 6 from its first, for a tool of 10; each corner has room enough.
+  const std::string pocket = " G1 F100 Y10\nG41 Y0\nY-20\nX30\nX6 Y0\nY1\nG40 Y20\n";
+  const TestRun off = SinumerikTest().Run(Head("CDOF" + pocket));
+  EXPECT_TRUE(off.findings.empty()) << off.Text();
+  EXPECT_EQ(EndOf(off, 5).substr(0, 7), "X15 Y5 ");
+  EXPECT_TRUE(SinumerikTest().Run(Head("CDON" + pocket)).Has(Rule::kUnsupportedCode));
+}
+
 TEST(SinumerikMotion, CirclesAboutThePole) {
   // Manual, "Circular interpolation with polar coordinates": the pole is the centre.
   const TestRun run = SinumerikTest().Run(Head("G111 X10 Y0\nG3 F100 RP=10 AP=270\n"));
