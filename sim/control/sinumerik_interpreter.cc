@@ -145,7 +145,8 @@ void SinumerikInterpreter::Execute(SinumerikStep* step) {
     log_.Assume("block skip", "off: blocks with / are executed where no level is switched on",
                 false);
   }
-  ApplyCodes();
+  ResolveAxisWords();
+  if (!log_.stopped()) ApplyCodes();
   if (!log_.stopped()) ApplyTechnology();
   if (!log_.stopped()) ApplyM(false);
   // Of the tool that M6 has brought.
@@ -186,6 +187,25 @@ AxisValues SinumerikInterpreter::MachinePosition() {
   contour_.Flush();
   if (Is(kSinComp, "G40")) return parts_.to_motion->position();
   return parts_.frames->ToMachine(frame_, position_);
+}
+
+/// AX[X]=10 is X=10.
+void SinumerikInterpreter::ResolveAxisWords() {
+  for (SinumerikItem& item : step_->items) {
+    const bool word = item.kind == SinumerikItemKind::kWord && item.letter == 0;
+    if (!word || item.value_count == 0 || !nc::SameName(item.name, "AX")) continue;
+    const std::string& axis = step_->argument(item, 0).text;
+    if (axis.size() != 1 || std::string_view("XYZABC").find(axis[0]) == std::string_view::npos) {
+      continue;
+    }
+    if (step_->Find(axis[0]) != nullptr) {
+      Alarm(Where(item), 16420, axis + " stands twice in the block");
+      return;
+    }
+    item.letter = axis[0];
+    ++item.first_value;
+    --item.value_count;
+  }
 }
 
 void SinumerikInterpreter::ApplyCodes() {

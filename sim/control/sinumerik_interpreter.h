@@ -137,6 +137,7 @@ class SinumerikInterpreter {
   };
 
   // sinumerik_interpreter.cc: blocks and modal state
+  void ResolveAxisWords();
   void ApplyCodes();
   void ApplyCode(SinumerikItem* item);
   void UpdateModes();

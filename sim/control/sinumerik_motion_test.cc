@@ -485,6 +485,29 @@ TEST(SinumerikFrames, VariablesOfActiveFrames) {
   EXPECT_TRUE(run.Has(Rule::kControlAlarm)) << run.Text();
 }
 
+TEST(SinumerikFrames, BasicFramesAreNone) {
+  // As control data write them out; a shift of one is not simulated.
+  const TestRun run = SinumerikTest().Run(
+      Head("$P_CHBFR[0]=CTRANS(X,0,Y,0):CROT(Z,0):CSCALE(X,1)\n$P_UBFR[X,TR]=0\n"
+           "$P_BFRAME=CTRANS()\nR1=3+$P_CHBFR[0,X,TR]+$P_ACTBFRAME[Z,RT]\nG0 X=R1\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 7), "X13 Y20 Z-100 B0 C0");
+  EXPECT_TRUE(run.Assumed("basic frame"));
+  for (const char* block : {"$P_UBFR=CTRANS(X,1)", "$P_CHBFR[0,X,TR]=1", "$P_UBFR=CSCALE(X,2)"}) {
+    EXPECT_TRUE(SinumerikTest().Run(Head(block)).Has(Rule::kUnsupportedCode)) << block;
+  }
+}
+
+TEST(SinumerikMotion, AnAddressMayBeNamedByAnAxis) {
+  // Manual, "Addresses": AX[X]=10 is X=10.
+  const TestRun run =
+      SinumerikTest().Run(Head("DEF AXIS _AX\n_AX=Y\nG0 AX[X]=3 AX[_AX]=IC(2) AX[$P_AXN3]=60\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 5), "X13 Y22 Z-90 B0 C0");
+  EXPECT_NE(SinumerikTest().Run(Head("AX[X]=3 X2\n")).Text().find("16420"), std::string::npos);
+  EXPECT_FALSE(SinumerikTest().Run(Head("AX[A]=3\n")).findings.empty());
+}
+
 TEST(SinumerikFrames, SystemVariablesAreInInchesUnderG700) {
   // Manual, "G70, G71, G700, G710".
   const TestRun run = SinumerikTest().Run(Head(
