@@ -33,6 +33,19 @@ std::optional<int> EdgeParameter(std::string_view name) {
   return number;
 }
 
+/// What tool management keeps of tools, their monitoring and magazines, as a control writes it out.
+bool IsOfToolManagement(std::string_view name) {
+  for (const std::string_view family :
+       {"$TC_TP", "$TC_TPC", "$TC_TPCS", "$TC_DPC", "$TC_DPCS", "$TC_MOP", "$TC_MOPC", "$TC_MOPCS",
+        "$TC_MAP", "$TC_MAPC", "$TC_MAPCS", "$TC_MPP", "$TC_MPPC", "$TC_MPPCS", "$TC_MDP",
+        "$TC_MTP", "$TC_MTPC", "$TC_MTPCS"}) {
+    if (!name.starts_with(family) || name.size() == family.size()) continue;
+    const std::string_view number = name.substr(family.size());
+    if (std::all_of(number.begin(), number.end(), nc::IsDigit)) return true;
+  }
+  return name == "$TC_DPCE" || name == "$TC_DPH" || name == "$TC_MLSR" || name == "$TC_MPTH";
+}
+
 std::optional<int> Whole(const SinumerikValue& value, int lowest, int highest) {
   if (!value.is_number() || value.number != std::floor(value.number)) return std::nullopt;
   if (!(value.number >= lowest && value.number <= highest)) return std::nullopt;
@@ -327,7 +340,14 @@ Access Sinumerik840dSystem::Write(std::string_view name, const Indices& indices,
     return WriteBasicFrame(name, indexed, indices, value, message);
   }
   const auto number = EdgeParameter(name);
-  if (!number) return Access::kUnknown;
+  if (!number) {
+    // Of all others, 0 and "" are what they hold anyway.
+    const bool nothing = value.is_number()
+                             ? value.number == 0.0
+                             : value.type == nc::SinumerikType::kString && value.text.empty();
+    const bool moves_nothing = name.starts_with("$TC_") && (nothing || IsOfToolManagement(name));
+    return moves_nothing ? Access::kDone : Access::kUnknown;
+  }
   const auto tool = indices.size() == 2 ? Whole(indices[0], 1, kMaxTool) : std::nullopt;
   const auto edge = indices.size() == 2 ? Whole(indices[1], 1, kMaxEdge) : std::nullopt;
   if (!tool || !edge || !value.is_number()) {
