@@ -191,9 +191,11 @@ void NcWriter::Start() {
 void NcWriter::WriteToolTable() {
   if (info_.tools.empty()) return;
   Emit(Block::kToolTableHead);
-  for (const ClTool& tool : info_.tools) {
-    TakeTool(tool);
+  for (const ToolUse& use : info_.tools) {
+    TakeTool(use.tool);
+    if (use.compensated) values_.Set(Value::kToolCompensation, "WEAR");
     Emit(Block::kToolTableRow);
+    values_.Clear(Value::kToolCompensation);
   }
   if (modal_) TakeTool(*modal_->tool);
   Emit(Block::kToolTableFoot);

@@ -145,6 +145,15 @@ class Posting {
     cl_options_.first_tool = options_.first_tool;
     summary_ = post::ReadCl(cl_, cl_options_, &diagnostics_);
     if (diagnostics_.has_errors()) return Say(diagnostics_) && false;
+    const int pockets = machine_->control.tool_pockets;
+    for (const post::ToolUse& use : summary_.tools) {
+      const int number = use.tool.number.value_or(0);
+      if (pockets == 0 || number <= pockets) continue;
+      diagnostics_.Error(options_.cl_file, use.where.line, use.where.column,
+                         "T" + std::to_string(number) + ": the tool changer of " + machine_->name +
+                             " has " + std::to_string(pockets) + " pockets");
+    }
+    if (diagnostics_.has_errors()) return Say(diagnostics_) && false;
     if (summary_.motions > 0) return true;
     return Complain(options_.cl_file + ": error: the file moves no tool: there is nothing to post");
   }
