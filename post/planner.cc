@@ -237,7 +237,7 @@ void Planner::State::BeginOperation(const Events& events, PlanMode mode,
   if (next_tool != modal.tool->number) operation.next_tool = next_tool;
   tool_ = modal.tool->number;
   tool_name_ = modal.tool->name;
-  if (operation.tool_change) placed_ = false;
+  if (operation.tool_change || options_.separate) placed_ = false;
   PlanStep step{events.front().where, events.back().modal, operation};
   sink_->OnStep(step);
   choices_.push_back({modal.operation->index, 1, 0});

@@ -33,6 +33,7 @@ struct PlanOptions {
   std::optional<PlanMode> mode;
   bool turned_planes = false;              ///< kIndexed in the plane's own directions (CYCLE800).
   std::array<PlanAbilities, 3> abilities;  ///< By PlanMode.
+  bool separate = false;                   ///< An operation never goes on where the last one ends.
   double tolerance = 0.004;                ///< mm: chords, and tips that bow.
   double angle_tolerance = 0.005 * 0.01745329;  ///< rad: tool axes that leave their great circle.
   double turn_rate = 0.35;                      ///< rad/s: turns with the tool in the part.

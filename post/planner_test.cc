@@ -133,6 +133,34 @@ TEST(PlannerTest, ARewindWhereALimitIsMet) {
   EXPECT_EQ(plan.Make(path).All<PlanIndex>().size(), 1u);
 }
 
+// The tool comes to each point with a tilt of 2 degrees less than to the last one, from 16: it must
+// rewind before -12 degrees, the fourteenth, and may do so as soon as the other branch (B from -11
+// up) reaches: the third.
+TEST(PlannerTest, TheOtherWaysRewindEarlier) {
+  Plan plan("bc_table_840d/bc_table_840d.urdf");
+  std::string path = "RAPID\n" + Goto({0, 0, 60}, AxisOf(16, 0));
+  for (int i = 1; i <= 16; ++i) path += Goto({0, 1.0 * i, 60}, AxisOf(16.0 - 2.0 * i, 0));
+  std::vector<double> rewinds;
+  plan.Make(path);
+  ASSERT_EQ(plan.choices.size(), 1u);
+  for (std::size_t way = 0; way < plan.choices[0].ways; ++way) {
+    plan.options.choice[1] = way;
+    for (const PlanStep& step : plan.Make(path).steps) {
+      const auto* index = std::get_if<PlanIndex>(&step.what);
+      if (index == nullptr || index->why != PlanIndex::Why::kRewind) continue;
+      rewinds.push_back(16.0 - 2.0 * std::round(index->approach.xyz.y()));
+      EXPECT_EQ(plan.FirstError(), "");
+    }
+  }
+  ASSERT_GE(rewinds.size(), 3u);
+  EXPECT_EQ(rewinds.front(), -10.0);
+  for (std::size_t i = 1; i < rewinds.size(); ++i) {
+    EXPECT_GE(rewinds[i], rewinds[i - 1]);
+    EXPECT_LE(rewinds[i], 10.0);
+  }
+  EXPECT_GT(rewinds.back(), 0.0);
+}
+
 TEST(PlannerTest, AnotherWayIsTakenWhenAskedFor) {
   Plan plan("haas_umc750/umc750.urdf");
   const std::string path =

@@ -2,6 +2,7 @@
 #include "post/rotary_choice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -12,8 +13,16 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSame = 1e-9;  // rad
+/// Where to rewind: as late as can be, and earlier in the stretch since the last rewind, where
+/// check finds that in the way.
+constexpr std::array<double, 4> kEarlier = {0.0, 0.25, 0.5, 0.75};
 
 double Distance(const Rotary& a, const Rotary& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+bool SamePlaces(const RotaryPath& a, const RotaryPath& b) {
+  return std::equal(a.rewinds.begin(), a.rewinds.end(), b.rewinds.begin(), b.rewinds.end(),
+                    [](const auto& x, const auto& y) { return x.at == y.at; });
+}
 
 double Travel(const Rotary& a, const Rotary& b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]);
@@ -101,26 +110,49 @@ std::optional<Rotary> Longest(const Follower& follower, std::size_t i, const Rot
   return longest > 0 ? best : std::nullopt;
 }
 
+/// From axis to axis: where the turn at the pole before the motion ends, and where the motion does.
+using Steps = std::vector<PartGeometry::Way>;
+
+/// Rewinds where the limit is met, or `earlier` (0 to 1) of the way back to the last rewind.
 std::optional<RotaryPath> Follow(const Follower& follower, std::size_t count, const Rotary& start,
-                                 std::size_t* unreachable) {
+                                 double earlier, std::size_t* unreachable) {
   RotaryPath path;
-  path.rotary.push_back(start);
-  for (std::size_t i = 1; i < count; ++i) {
-    auto next = follower.Next(i, path.rotary.back());
-    if (!next) {
-      const auto again = Longest(follower, i - 1, path.rotary.back());
-      if (!again) {
-        *unreachable = i;
-        return std::nullopt;
-      }
-      path.rewinds.push_back({i - 1, path.rotary.back()});
-      path.travel += Travel(*again, path.rotary.back());
-      path.rotary.back() = *again;
-      next = follower.Next(i, *again);
+  Steps steps{{start, start}};
+  while (steps.size() < count) {
+    const std::size_t i = steps.size();
+    if (const auto next = follower.Next(i, steps.back().end)) {
+      steps.push_back(*next);
+      continue;
     }
-    if (Distance(next->start, path.rotary.back()) > kSame) ++path.pole_turns;
-    path.travel += Travel(next->start, path.rotary.back()) + Travel(next->start, next->end);
-    path.rotary.push_back(next->end);
+    const std::size_t since = path.rewinds.empty() ? 0 : path.rewinds.back().at;
+    std::size_t at = i - 1 - static_cast<std::size_t>(earlier * static_cast<double>(i - 1 - since));
+    auto again = Longest(follower, at, steps[at].end);
+    if (at < i - 1 && (!again || at + follower.Stretch(at, *again) < i)) {
+      at = i - 1;  // The earlier place leads no further.
+      again = Longest(follower, at, steps[at].end);
+    }
+    if (!again) {
+      *unreachable = i;
+      return std::nullopt;
+    }
+    steps.resize(at + 1);
+    path.rewinds.push_back({at, steps[at].end});
+    steps[at].end = *again;
+  }
+  auto rewind = path.rewinds.begin();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    Rotary arrived = steps[i].end;
+    if (rewind != path.rewinds.end() && rewind->at == i) {
+      arrived = rewind->before;
+      path.travel += Travel(arrived, steps[i].end);
+      ++rewind;
+    }
+    if (i > 0) {
+      const Rotary& last = steps[i - 1].end;
+      if (Distance(steps[i].start, last) > kSame) ++path.pole_turns;
+      path.travel += Travel(steps[i].start, last) + Travel(steps[i].start, arrived);
+    }
+    path.rotary.push_back(steps[i].end);
   }
   return path;
 }
@@ -135,17 +167,25 @@ std::vector<RotaryPath> RankRotary(const PartGeometry& geometry,
   const Follower follower(geometry, axes_P, pole_tolerance);
   std::size_t farthest = 0;
   for (const Rotary& start : follower.Starts(0, from)) {
-    std::size_t stopped = 0;
-    auto path = Follow(follower, axes_P.size(), start, &stopped);
-    farthest = std::max(farthest, stopped);
-    if (!path) continue;
-    path->travel += Travel(start, from);
-    ranked.push_back(std::move(*path));
+    for (const double earlier : kEarlier) {
+      std::size_t stopped = 0;
+      auto path = Follow(follower, axes_P.size(), start, earlier, &stopped);
+      farthest = std::max(farthest, stopped);
+      if (!path) break;
+      path->earlier = earlier;
+      path->travel += Travel(start, from);
+      const bool known = std::any_of(ranked.begin(), ranked.end(), [&](const RotaryPath& other) {
+        return SamePlaces(other, *path) && Distance(other.rotary[0], start) < kSame;
+      });
+      if (known) continue;
+      ranked.push_back(std::move(*path));
+      if (ranked.back().rewinds.empty()) break;
+    }
   }
   if (ranked.empty()) *unreachable = farthest;
   std::stable_sort(ranked.begin(), ranked.end(), [](const RotaryPath& a, const RotaryPath& b) {
-    return std::tuple(a.rewinds.size(), a.pole_turns, a.travel) <
-           std::tuple(b.rewinds.size(), b.pole_turns, b.travel);
+    return std::tuple(a.rewinds.size(), a.pole_turns, a.earlier, a.travel) <
+           std::tuple(b.rewinds.size(), b.pole_turns, b.earlier, b.travel);
   });
   return ranked;
 }

@@ -20,17 +20,19 @@ struct RotaryPath {
     Rotary before{};
   };
   std::vector<Rewind> rewinds;
+  double earlier = 0.0;  ///< Rewinds are made this share of their stretch before they must.
   /// How often the second axis turns at the pole, the tool standing still.
   int pole_turns = 0;
   double travel = 0.0;  ///< rad, of both axes, rewinds included, from where they stood.
 };
 
 /// The ways to follow `axes_P` from where the rotary axes stand, the best first: the one with the
-/// fewest rewinds, of these with the fewest turns at the pole, of these with the least travel. Each
-/// begins with another solution for the first axis (the branches; turns of an axis with limits; at
-/// the pole where the second axis will be needed). A rewind is made where the continuous way would
-/// leave the limits. Empty where one of the axes cannot be reached: `unreachable` is its index.
-/// `pole_tolerance`: as PartGeometry::Follow.
+/// fewest rewinds, of these with the fewest turns at the pole, of these with the latest rewinds, of
+/// these with the least travel. They begin with another solution for the first axis (the branches;
+/// turns of an axis with limits; at the pole where the second axis will be needed), or rewind
+/// elsewhere: where the continuous way would leave the limits, or before that. Empty where one of
+/// the axes cannot be reached: `unreachable` is its index. `pole_tolerance`: as
+/// PartGeometry::Follow.
 std::vector<RotaryPath> RankRotary(const PartGeometry& geometry,
                                    const std::vector<Eigen::Vector3d>& axes_P, const Rotary& from,
                                    double pole_tolerance, std::size_t* unreachable);

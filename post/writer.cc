@@ -205,7 +205,10 @@ void NcWriter::BeginFile() {
   const std::string name =
       info_.name + "_" + Fixed(values_.number(Value::kOperationNumber).value_or(0.0), 0);
   values_.Set(Value::kOperationFile, name);
-  Emit(Block::kCallOperation);
+  if (!Emit(Block::kCallOperation)) {
+    Problem("the post writes one file: it has no block 'call_operation'");
+    return;
+  }
   main_number_ = output_.next_number();
   std::ostream* file = open_operation_(name + data_.extension);
   if (file == nullptr) {
@@ -239,7 +242,7 @@ void NcWriter::Handle(const PlanOperation& operation) {
   const PostMode* mode = data_.Mode(operation.mode, info_.mode);
   if (mode == nullptr) Problem("the post has no mode of the kind that this operation needs");
   // Else it goes on where the last one has left the tool.
-  const bool anew = operation.tool_change || mode != mode_ || !positioned_;
+  const bool anew = operation.tool_change || mode != mode_ || !positioned_ || open_operation_;
   if (anew) {
     Leave();
     EndFile();

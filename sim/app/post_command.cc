@@ -2,8 +2,8 @@
 #include "sim/app/post_command.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -16,6 +16,7 @@
 #include "post/post_options.h"
 #include "post/post_program.h"
 #include "sim/app/app.h"
+#include "sim/app/compare_command.h"
 #include "sim/app/post_candidates.h"
 #include "sim/app/program_input.h"
 #include "sim/base/text.h"
@@ -31,6 +32,9 @@ namespace fs = std::filesystem;
 
 /// Candidates that are checked at most: each costs a whole run.
 constexpr int kMaxCandidates = 40;
+
+/// mm that a tool's diameter may differ: files print four decimals, some in inches.
+constexpr double kSameDiameter = 0.005;
 
 /// 123 of "O00123", where a name is such.
 std::optional<int> NumberOf(const std::string& name) {
@@ -59,7 +63,9 @@ class Posting {
 
   int Run(std::ostream& out) {
     const bool loaded = LoadJob() && LoadMachine() && LoadPost() && LoadCl() && Place();
-    if (!loaded || !Say(diagnostics_)) return kExitBadInput;
+    if (!loaded) return kExitBadInput;
+    HoldTools();
+    if (!Say(diagnostics_)) return kExitBadInput;
     const post::PlanOptions options = PlanOptions();
     const int limit = checked_ ? kMaxCandidates : 1;
     std::vector<std::string> notes;
@@ -67,8 +73,12 @@ class Posting {
         FindPassing([&](const auto& choice) { return Candidate(options, choice); }, limit, &notes);
     if (!best || !Write(best->program, out)) return kExitBadInput;
     for (const std::string& note : notes) Complain(name_ + ": note: " + note);
+    std::ostream& report = options_.out.empty() ? *err_ : out;
+    TellWritten(best->program, report);
+    if (!options_.check) return kExitPass;
+    const int held = HoldAgainstCl(best->program, report);
     *err_ << best->outcome.messages;
-    return Tell(*best, options_.out.empty() ? *err_ : out);
+    return CombinedExit({held, TellChecked(best->outcome, report)});
   }
 
  private:
@@ -191,8 +201,40 @@ class Posting {
     return true;
   }
 
+  /// The tools of the job are what the machine has; a file made for others would cut another part.
+  void HoldTools() {
+    if (!job_.has_tools) return;
+    const machine::ToolTable table{job_.tools};
+    for (const post::ToolUse& use : summary_.tools) {
+      if (!use.tool.number) continue;
+      const std::string name = "T" + std::to_string(*use.tool.number);
+      const machine::Tool* stated = table.Find(*use.tool.number);
+      if (stated == nullptr) continue;
+      const double width = use.tool.diameter.value_or(stated->diameter);
+      if (std::abs(stated->diameter - width) > kSameDiameter) {
+        diagnostics_.Warning(job_.path, 0, 0,
+                             name + " cuts " + Short(stated->diameter) +
+                                 " mm wide in the job, and " + Short(width) + " mm in " +
+                                 options_.cl_file);
+      }
+      if (use.compensated && HasRadius(*stated)) {
+        diagnostics_.Warning(job_.path, 0, 0,
+                             "D of " + name + " has the tool's radius, and the points of " +
+                                 options_.cl_file + " are those of its centre: d_geometry = 0");
+      }
+    }
+  }
+
+  /// In a register of the control.
+  static bool HasRadius(const machine::Tool& tool) {
+    if (tool.edges.empty()) return tool.d_geometry != 0.0;
+    return std::any_of(tool.edges.begin(), tool.edges.end(),
+                       [](const machine::ToolEdge& edge) { return edge.diameter != 0.0; });
+  }
+
   post::PlanOptions PlanOptions() const {
     post::PlanOptions options = post::PlanOptionsOf(*post_, options_.mode);
+    options.separate = options_.file_for_operation;
     if (options_.tolerance) options.tolerance = *options_.tolerance;
     return options;
   }
@@ -244,25 +286,40 @@ class Posting {
     return WriteOperations(program) && WriteFile(options_.out, program.files.front().text);
   }
 
-  /// What was written and what check says of it.
-  int Tell(const Judged& judged, std::ostream& out) {
+  void TellWritten(const post::PostedProgram& program, std::ostream& out) const {
     std::size_t lines = 0;
-    for (const post::PostedFile& file : judged.program.files) {
+    for (const post::PostedFile& file : program.files) {
       lines += static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
     }
     out << name_ << ": " << (options_.out.empty() ? "" : "written: ")
-        << report::Count(lines, "line") << ", " << report::Count(judged.program.moves, "move")
-        << " of " << report::Count(judged.program.operations.size(), "operation") << " with "
+        << report::Count(lines, "line") << ", " << report::Count(program.moves, "move") << " of "
+        << report::Count(program.operations.size(), "operation") << " with "
         << report::Count(summary_.tools.size(), "tool");
-    if (judged.program.files.size() > 1) {
-      out << ", in " << report::Count(judged.program.files.size(), "file");
-    }
+    if (program.files.size() > 1) out << ", in " << report::Count(program.files.size(), "file");
     out << "\n";
+  }
+
+  /// What the control makes of the program, and what the file says: the same motion? Where the part
+  /// stands does not matter for that: what is assumed of it is check's matter.
+  int HoldAgainstCl(const post::PostedProgram& program, std::ostream& out) {
+    CompareOptions compare;
+    compare.reference = options_.cl_file;
+    compare.tested = name_;
+    compare.model = model_path_;
+    compare.job = job_.path;
+    compare.assume = {"all"};
+    compare.cl = options_.cl;
+    const HeldTogether held =
+        CompareText(compare, nc::Program::FromText(name_, program.files.front().text), *err_);
+    out << held.text;
+    return held.exit_code;
+  }
+
+  int TellChecked(const ProgramOutcome& outcome, std::ostream& out) const {
     if (checked_) {
-      out << judged.outcome.report;
-      return judged.outcome.exit_code;
+      out << outcome.report;
+      return outcome.exit_code;
     }
-    if (!options_.check) return kExitPass;
     out << name_
         << ": unproven: not checked, for no job says where the part stands and which tools "
         << "there are (--job, or " << name_ << ".job.toml)\n";

@@ -164,8 +164,11 @@ class SinumerikInterpreter {
   void TurnToTool();
   void UseFrame(const Frame& frame);
   void ExecuteFrameStatement(const SinumerikItem& item);
-  void Translate();
+  void CheckFine(const SourcePosition& where);
+  void ReplaceShift(bool fine, const SourcePosition& where);
+  void Translate(bool adds);
   void Rotate(const SourcePosition& where);
+  void RotateBySolidAngles(const SourcePosition& where);
   void Scale();
   void Mirror();
   void SetPole(std::string_view name);
@@ -204,7 +207,10 @@ class SinumerikInterpreter {
 
   // sinumerik_orientation.cc
   bool TakeOrientation(AxisValues* end, unsigned* named);
+  std::optional<Eigen::Vector3d> TakeTriple(char digit);
   std::optional<Eigen::Vector3d> TakeToolAxis();
+  void TakeSurfaceNormal();
+  std::optional<Eigen::Vector3d> TakeLeaning(const AxisValues& end);
   bool Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named);
   bool WithinLimits(const Eigen::Vector3d& u_B, const std::array<double, 2>& from, bool led,
                     std::array<double, 2>* reached);
@@ -226,10 +232,14 @@ class SinumerikInterpreter {
       const SourcePosition& where);
   std::optional<kinematics::RotarySolution> TurnedSwivel(
       std::vector<kinematics::RotarySolution> solutions, const std::array<double, 2>& here,
-      const SwivelPlane& plane, long direction, const SourcePosition& where);
+      const SwivelPlane& plane, const SinumerikCycleArguments& arguments,
+      const SourcePosition& where);
+  void AssumeOfSwivel(std::string_view setting, bool stated, std::string_view name,
+                      std::string_view instead);
   std::optional<kinematics::RotarySolution> PoleSwivel(kinematics::RotarySolution solution,
                                                        const std::array<double, 2>& here,
-                                                       const SwivelPlane& plane, long direction,
+                                                       const SwivelPlane& plane,
+                                                       const SinumerikCycleArguments& arguments,
                                                        const SourcePosition& where);
   bool RetractToSwivel(const SinumerikCycleArguments& arguments, const SourcePosition& where);
   void TurnTables(const AxisValues& target, bool tracks);
@@ -265,8 +275,9 @@ class SinumerikInterpreter {
 
   std::shared_ptr<const Frame> frame_;
   bool frame_dirty_ = false;
-  bool new_frame_ = false, new_length_ = false;  ///< What made it so.
-  bool tool_frame_due_ = false;                  ///< TOROT stands in the block.
+  bool new_frame_ = false, new_length_ = false;         ///< What made it so.
+  bool tool_frame_due_ = false;                         ///< TOROT stands in the block.
+  bool replaces_shift_ = false, fine_dropped_ = false;  ///< G58, G59; TRANS behind ATRANS.
   bool traori_ = false;
   std::string
       cancelled_;  ///< The frame that TRAORI or TRAFOOF cancelled, and nobody selected again.
@@ -274,8 +285,10 @@ class SinumerikInterpreter {
   AxisValues carry_{};     ///< What the next incremental move of an axis goes beside its own way.
   std::array<bool, kNumAxes> carry_turned_{};  ///< And the frame has turned since.
   Eigen::Vector2d pole_ = Eigen::Vector2d::Zero();
-  Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();  ///< At the end of the last motion.
-  Command command_;                                    ///< Carries the modal facts; reused.
+  Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();          ///< At the end of the last motion.
+  Eigen::Vector3d surface_normal_ = Eigen::Vector3d::UnitZ();  ///< A5 B5 C5, or A4 B4 C4.
+  std::array<double, 2> leaning_{};                            ///< LEAD, TILT; rad.
+  Command command_;                                            ///< Carries the modal facts; reused.
 
   double feed_word_ = 0.0, rpm_ = 0.0;
   int spindle_ = 0;

@@ -193,6 +193,70 @@ TEST(SinumerikFrames, TransAndRotMoveTheAxesTogether) {
   EXPECT_EQ(EndOf(run, 4), "X13 Y21 Z-248 B0 C0");
 }
 
+// NC programming 12/2019, p. 315: X15 Y15 Z10, X25 Y15 Z10, X30 Y20 Z10.
+TEST(SinumerikFrames, G58AndG59ReplaceOneShiftEach) {
+  const std::string head = "TRANS X10 Y10 Z10\nATRANS X5 Y5\n";
+  const std::string text = head + "G0 X0 Y0 Z0\nG58 X20\nX0 Y0\nG59 X10 Y10\nX0 Y0\n";
+  SinumerikTest control;
+  const TestRun run = control.Run(Head(text));
+  EXPECT_EQ(EndOf(run, 5), "X25 Y35 Z-140 B0 C0") << run.Text();
+  EXPECT_EQ(EndOf(run, 7), "X35 Y35 Z-140 B0 C0");
+  EXPECT_EQ(EndOf(run, 9), "X40 Y40 Z-140 B0 C0");
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_TRUE(run.Assumed("MD24000"));
+  control.job.control["MD24000"] = "1";
+  EXPECT_FALSE(control.Run(Head(text)).Assumed("MD24000"));
+  const std::string parts = "R1=$P_PFRAME[X,TR]*100+$P_PFRAME[X,FI]\nTRANS\nG0 X=R1/100\n";
+  EXPECT_EQ(EndOf(control.Run(Head(head + parts)), 7), "X20.05 Y20 Z-100 B0 C0");
+  // Shifts lie before the turn: a fine one that ATRANS has made in turned axes, too.
+  const TestRun turned = control.Run(Head("ROT Z90\nATRANS X5\nG58 X1\nG0 X0 Y0\nG59 Y2\nX0 Y0\n"));
+  EXPECT_EQ(EndOf(turned, 6), "X11 Y25 Z-100 B0 C0") << turned.Text();
+  EXPECT_EQ(EndOf(turned, 8), "X11 Y22 Z-100 B0 C0");
+  // What TRANS leaves of ATRANS is not clear, where they are kept apart; TRANS alone deletes all.
+  const std::string twice = head + "TRANS X1\nG0 X0\n", deleted = head + "TRANS\nG58 X1\nG0 X0\n";
+  EXPECT_TRUE(control.Run(Head(twice)).Has(Rule::kUnsupportedCode));
+  EXPECT_EQ(EndOf(control.Run(Head(deleted)), 7).substr(0, 7), "X11 Y20");
+  control.job.control.clear();
+  EXPECT_TRUE(control.Run(Head(twice)).findings.empty());
+  EXPECT_TRUE(control.Run(Head(twice + "G58 X2\n")).Has(Rule::kUnsupportedCode));
+  control.job.control["MD24000"] = "0";
+  EXPECT_TRUE(control.Run(Head(text)).Has(Rule::kUnsupportedCode));
+  EXPECT_TRUE(control.Run(Head(twice)).findings.empty());
+}
+
+// K2 08/2005, p. 2-101: X and Y turn Y and X into the plane's traces; the new X is in the old ZX
+// plane. Z and X, Y and Z: the same with the axes in a circle.
+TEST(SinumerikFrames, SolidAnglesAreThoseOfThePlanesTraces) {
+  const double a = Radians(10.0), b = Radians(20.0);
+  const Eigen::Vector3d x(std::cos(b), 0.0, -std::sin(b));
+  const Eigen::Vector3d z = Eigen::Vector3d(std::tan(b), -std::tan(a), 1.0).normalized();
+  const auto way = [](const std::string& turn, const std::string& words) {
+    const TestRun run = SinumerikTest().Run(Head(turn + "\nG0 X0 Y0 Z0\n" + words + "\n"));
+    EXPECT_TRUE(run.findings.empty()) << run.Text();
+    const int line = 5 + static_cast<int>(std::count(turn.begin(), turn.end(), '\n'));
+    const motion::JointVector q = run.Last(line).q1() - run.Last(line).q0();
+    return Eigen::Vector3d(q[kJointX], q[kJointY], q[kJointZ]);
+  };
+  const auto circle = [](const Eigen::Vector3d& v, int by) {
+    Eigen::Vector3d turned;
+    for (int i = 0; i < 3; ++i) turned[(i + by) % 3] = v[i];
+    return turned;
+  };
+  EXPECT_LT((way("ROTS X10 Y20", "X1") - x).norm(), 1e-9);
+  EXPECT_LT((way("ROTS X10 Y20", "Y1") - z.cross(x)).norm(), 1e-9);
+  EXPECT_LT((way("ROTS X10 Y20", "Z1") - z).norm(), 1e-9);
+  EXPECT_LT((way("ROTS Y10 Z20", "Y1") - circle(x, 1)).norm(), 1e-9);
+  EXPECT_LT((way("ROTS Y10 Z20", "X1") - circle(z, 1)).norm(), 1e-9);
+  EXPECT_LT((way("ROTS Z10 X20", "Z1") - circle(x, 2)).norm(), 1e-9);
+  EXPECT_LT((way("ROTS Y20", "X1") - x).norm(), 1e-9);
+  // AROTS adds: behind a turn of Z by 90 degrees, which takes x y z to y -x z.
+  const Eigen::Vector3d added = way("ROT Z90\nAROTS X10 Y20", "X1");
+  EXPECT_LT((added - Eigen::Vector3d(-x.y(), x.x(), x.z())).norm(), 1e-9);
+  for (const std::string turn : {"ROTS X1 Y1 Z1", "ROTS X90 Y1"}) {
+    EXPECT_TRUE(SinumerikTest().Run(Head(turn + "\n")).Has(Rule::kUnsupportedCode)) << turn;
+  }
+}
+
 TEST(SinumerikFrames, AnIncrementalMoveBehindATurnIsSaid) {
   // SD42440 = 1 speaks of offsets only. Not where the axis stands in the zero, nor behind TRANS.
   EXPECT_TRUE(SinumerikTest().Run(Head("X10\nAROT Z30\nG91 X5\n")).Has(Rule::kUnsupportedCode));

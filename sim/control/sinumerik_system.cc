@@ -85,6 +85,9 @@ Access Sinumerik840dSystem::ReadFrame(std::string_view name, Indices indices, Si
   } else {
     const SettableFrame& active = interpreter_->active_settable();
     AffineFrame whole = interpreter_->program_frame();
+    if (name == "$P_PFRAME" && whole.fine != AxisValues{} && !settings_->fine_shift) {
+      log_->Assume("MD24000", "1: $P_PFRAME shows the shift of ATRANS as the fine one", true);
+    }
     if (name == "$P_ACTFRAME") whole = Chained(ToAffine(active), whole);
     const bool turned =
         name == "$P_ACTFRAME" && (interpreter_->tool_frame() || interpreter_->swivels());
