@@ -86,9 +86,13 @@ class Posting {
     *err_ << message << "\n";
     return false;
   }
-  /// False where there are errors.
+  /// False where there are errors; these come first.
   bool Say(const Diagnostics& diagnostics) {
-    for (const Diagnostic& diagnostic : diagnostics.all()) Complain(ToString(diagnostic));
+    for (const Diagnostic::Level level : {Diagnostic::Level::kError, Diagnostic::Level::kWarning}) {
+      for (const Diagnostic& diagnostic : diagnostics.all()) {
+        if (diagnostic.level == level) Complain(ToString(diagnostic));
+      }
+    }
     return !diagnostics.has_errors();
   }
 
