@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <deque>
-#include <set>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -68,10 +68,12 @@ class Recorder : public PlanSink {
 ClSummary ReadCl(const std::shared_ptr<const nc::Program>& cl, const ClOptions& options,
                  Diagnostics* diagnostics) {
   ClSummary summary;
-  std::set<std::pair<std::optional<int>, std::string>> known;
+  std::map<std::pair<std::optional<int>, std::string>, std::size_t> known;
+  SourcePosition loaded;
   ClPath path(cl, 0, options, diagnostics);
   for (ClEvent event; path.Next(&event);) {
     summary.operations = std::max(summary.operations, event.modal->operation->index);
+    if (std::holds_alternative<ClToolLoad>(event.what)) loaded = event.where;
     if (!std::holds_alternative<ClMotion>(event.what) &&
         !std::holds_alternative<ClHole>(event.what)) {
       continue;
@@ -79,9 +81,11 @@ ClSummary ReadCl(const std::shared_ptr<const nc::Program>& cl, const ClOptions& 
     ++summary.motions;
     const ClTool& tool = *event.modal->tool;
     // A number is a pocket of the machine, whatever the file calls the tool in it.
-    if (known.insert({tool.number, tool.number ? "" : tool.name}).second) {
-      summary.tools.push_back(tool);
-    }
+    const auto [found, first] =
+        known.insert({{tool.number, tool.number ? "" : tool.name}, summary.tools.size()});
+    if (first) summary.tools.push_back({tool, loaded.line > 0 ? loaded : event.where, false});
+    ToolUse& use = summary.tools[found->second];
+    use.compensated = use.compensated || event.modal->comp.side != cl::CutterComp::Side::kOff;
   }
   summary.unit = path.unit();
   return summary;
