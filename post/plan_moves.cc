@@ -29,12 +29,15 @@ Rotary Between(const Rotary& a, const Rotary& b, double s) {
 
 /// Chords that keep to an arc; three in half a turn at least: of fewer the ends look like a short
 /// line.
-int PartsOf(const ClArc& arc, double tolerance) {
+double PartsOf(const ClArc& arc, double tolerance) {
   const double most =
       2.0 * std::acos(1.0 - std::min(1.0, 0.999 * tolerance / std::max(arc.radius, 1e-6)));
-  const int halves = 1 + static_cast<int>(arc.sweep / std::numbers::pi);
-  return std::max(3 * halves, static_cast<int>(std::ceil(arc.sweep / most)));
+  const double halves = 1.0 + std::floor(arc.sweep / std::numbers::pi);
+  return std::max(3.0 * halves, std::ceil(arc.sweep / most));
 }
+
+/// Of one motion: a circle of a kilometre needs two thousand. What needs more is a mistake.
+constexpr std::size_t kMostPieces = 100'000;
 
 double Greatest(const Rotary& a, const Rotary& b) {
   return std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1]));
@@ -60,7 +63,8 @@ class Subdivision {
   bool Lead(const Node& begin, const Node& end, const std::optional<ClArc>& arc,
             std::vector<Node>* nodes) const {
     const double share = end.t - begin.t;
-    const int whole = arc ? PartsOf(*arc, kOfTolerance * options_.tolerance) : 1;
+    const double whole = arc ? PartsOf(*arc, kOfTolerance * options_.tolerance) : 1.0;
+    if (!(whole <= static_cast<double>(kMostPieces))) return false;
     const int parts = std::max(1, static_cast<int>(std::ceil(share * whole)));
     Node last = begin;
     for (int i = 1; i <= parts; ++i) {
@@ -85,7 +89,7 @@ class Subdivision {
       nodes->push_back(b);
       return true;
     }
-    if (depth == kDeepest) return false;
+    if (depth == kDeepest || nodes->size() >= kMostPieces) return false;
     const double t = 0.5 * (a.t + b.t);
     const auto rotary =
         geometry_.Between(curve_.Axis(t), a.rotary, b.rotary, PoleTolerance(options_));
@@ -280,8 +284,9 @@ std::string FeedMoves(const PartGeometry& geometry, const PlanOptions& options,
   }
   if (begin.t < 1.0) led = led && go(begin, {1.0, to});
   if (led) return "";
-  return "the tool axis cannot be led along here within " +
-         Short(Degrees(options.angle_tolerance)) + " deg";
+  return "the tool cannot be led along here within " + Short(Degrees(options.angle_tolerance)) +
+         " deg and " + Short(options.tolerance) + " mm with " + std::to_string(kMostPieces) +
+         " points";
 }
 
 }  // namespace ncsim::post

@@ -5,10 +5,14 @@
 #include <deque>
 #include <map>
 #include <sstream>
+#include <string>
 #include <utility>
 
 namespace ncsim::post {
 namespace {
+
+/// Texts are in memory: some 400 MB of them.
+constexpr std::size_t kMostMoves = 10'000'000;
 
 /// The texts as they are written, and where in them each operation begins.
 class Recorder : public PlanSink {
@@ -17,6 +21,7 @@ class Recorder : public PlanSink {
       : writer_(*job.post, job.info, diagnostics, &Open(""), OpenerOf(job)) {}
 
   void OnStep(const PlanStep& step) override {
+    if (program_.moves > kMostMoves) return;
     writer_.OnStep(step);
     if (const auto* operation = std::get_if<PlanOperation>(&step.what)) {
       PostedOperation begun;
@@ -31,6 +36,8 @@ class Recorder : public PlanSink {
       ++program_.moves;
     }
   }
+
+  bool full() const { return program_.moves > kMostMoves; }
 
   PostedProgram Take(const std::vector<PlanChoice>& choices) {
     for (std::size_t i = 0; i < streams_.size(); ++i) {
@@ -97,6 +104,10 @@ PostedProgram PostProgram(const PostJob& job, const PlanOptions& options,
   Planner planner(*job.geometry, options, job.cl->name(), diagnostics, &recorder);
   ClPath path(job.cl, 0, job.cl_options, diagnostics);
   for (ClEvent event; !diagnostics->has_errors() && path.Next(&event);) planner.Take(event);
+  if (recorder.full()) {
+    diagnostics->Error(job.cl->name(), 0, 0,
+                       "the program would have more than " + std::to_string(kMostMoves) + " moves");
+  }
   return recorder.Take(planner.choices());
 }
 
