@@ -49,7 +49,7 @@ class ProgramCheck {
     if (!CloseTrace()) return std::move(outcome_);
     Judge();
     Report();
-    outcome_.findings = std::move(result_.findings);
+    outcome_.result = std::move(result_);
     outcome_.files = std::move(files_);
     return std::move(outcome_);
   }
@@ -233,7 +233,7 @@ class ProgramCheck {
     std::ostringstream text;
     if (options_.format == Format::kJson) {
       report::WriteJson(result_, files_, text);
-    } else {
+    } else if (options_.format == Format::kText) {
       SourceLines lines(files_);
       lines.Know(0, program_);
       report::WriteText(result_, files_, std::ref(lines), text);

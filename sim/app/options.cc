@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 #include "sim/app/app.h"
 #include "sim/app/version.h"
@@ -41,7 +42,14 @@ constexpr const char* kExamples =
 /// Of the contract, but of later versions: refused by name, never accepted and ignored.
 const std::vector<std::string> kLaterCommands = {"nightly"};
 const std::vector<std::string> kLaterOptions = {"--report", "--gltf"};
-const std::vector<std::string> kLaterFormats = {"sarif", "junit", "github"};
+
+const std::vector<std::pair<std::string, Format>> kCheckFormats = {{"text", Format::kText},
+                                                                   {"json", Format::kJson},
+                                                                   {"sarif", Format::kSarif},
+                                                                   {"junit", Format::kJunit},
+                                                                   {"github", Format::kGithub}};
+const std::vector<std::pair<std::string, Format>> kCompareFormats = {{"text", Format::kText},
+                                                                     {"json", Format::kJson}};
 
 bool Contains(const std::vector<std::string>& list, const std::string& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
@@ -132,7 +140,8 @@ class CommandLine {
                      "threads to use; the report is the same for any number (default: as many as "
                      "there are processors)")
         ->type_name("N");
-    check_->add_option("--format", format_, "text or json")->type_name("FORMAT");
+    check_->add_option("--format", format_, "text, json, sarif, junit or github")
+        ->type_name("FORMAT");
     check_->add_option("--out", o.out, "write the report to this file")->type_name("FILE");
     check_
         ->add_option("--trace", o.trace, "write a row at the end of each motion (one program only)")
@@ -247,17 +256,26 @@ class CommandLine {
     return "unknown command '" + extra + "'" + DidYouMean(extra, known);
   }
 
+  std::string ReadFormat(const std::vector<std::pair<std::string, Format>>& formats,
+                         Format* format) const {
+    std::vector<std::string> known;
+    std::string list;
+    for (const auto& [name, value] : formats) {
+      if (name == format_) {
+        *format = value;
+        return "";
+      }
+      known.push_back(name);
+      list += list.empty() ? name : (&name == &formats.back().first ? " and " : ", ") + name;
+    }
+    return "unknown format '" + format_ + "'" + DidYouMean(format_, known) + "; there are " + list;
+  }
+
   /// --format and --assume.
-  std::string FinishCommon(const CLI::App* command, Format* format,
-                           std::vector<std::string>* assume) const {
-    if (Contains(kLaterFormats, format_)) {
-      return "--format " + format_ + " is not in this version of ncsim; there are text and json";
-    }
-    if (format_ != "text" && format_ != "json") {
-      return "unknown format '" + format_ + "'" + DidYouMean(format_, {"text", "json"}) +
-             "; there are text and json";
-    }
-    *format = format_ == "json" ? Format::kJson : Format::kText;
+  std::string FinishCommon(const CLI::App* command,
+                           const std::vector<std::pair<std::string, Format>>& formats,
+                           Format* format, std::vector<std::string>* assume) const {
+    if (const std::string error = ReadFormat(formats, format); !error.empty()) return error;
     *assume = SplitNames(assume_);
     if (command->count("--assume") > 0 && assume->empty()) return "--assume needs a name, or all";
     return "";
@@ -329,7 +347,8 @@ class CommandLine {
   std::string FinishCompare() {
     command_.kind = Command::Kind::kCompare;
     CompareOptions& o = command_.compare;
-    if (const std::string error = FinishCommon(compare_, &o.format, &o.assume); !error.empty()) {
+    if (const std::string error = FinishCommon(compare_, kCompareFormats, &o.format, &o.assume);
+        !error.empty()) {
       return error;
     }
     if (const std::string error = FinishClInput(&o.cl); !error.empty()) return error;
@@ -357,7 +376,8 @@ class CommandLine {
     for (const std::string& name : kLaterOptions) {
       if (check_->count(name) > 0) return "'" + name + "' is not in this version of ncsim";
     }
-    if (const std::string error = FinishCommon(check_, &o.format, &o.assume); !error.empty()) {
+    if (const std::string error = FinishCommon(check_, kCheckFormats, &o.format, &o.assume);
+        !error.empty()) {
       return error;
     }
     if (check_->count("--clearance") > 0) {

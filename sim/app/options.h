@@ -12,7 +12,7 @@
 
 namespace ncsim::app {
 
-enum class Format { kText, kJson };
+enum class Format { kText, kJson, kSarif, kJunit, kGithub };
 
 /// How a cutter-location file is to be read where it does not say.
 struct ClInput {

@@ -77,8 +77,12 @@ TEST_F(OptionsTest, MistypedNamesGetASuggestion) {
   EXPECT_EQ(Error({"check", "a.nc", "--modle", "x.urdf"}),
             "ncsim: unknown option '--modle' (did you mean '--model'?)\n");
   EXPECT_EQ(Error({"chekc", "a.nc"}), "ncsim: unknown command 'chekc' (did you mean 'check'?)\n");
-  EXPECT_EQ(Error({"check", "a.nc", "--format", "jsno"}),
-            "ncsim: unknown format 'jsno' (did you mean 'json'?); there are text and json\n");
+  EXPECT_EQ(
+      Error({"check", "a.nc", "--format", "jsno"}),
+      "ncsim: unknown format 'jsno' (did you mean 'json'?); there are text, json, sarif, junit "
+      "and github\n");
+  EXPECT_EQ(Error({"compare", "a.nc", "b.nc", "--format", "sarif"}),
+            "ncsim: unknown format 'sarif'; there are text and json\n");
   EXPECT_EQ(Error({"check", "a.nc", "--zzzzzzzzzz"}), "ncsim: unknown option '--zzzzzzzzzz'\n");
   EXPECT_EQ(Error({"inspect", "a.urdf", "b.urdf"}), "ncsim: unexpected argument 'b.urdf'\n");
 }
@@ -131,8 +135,6 @@ TEST_F(OptionsTest, LaterCommandsAndOptionsAreRefusedByName) {
             "ncsim: '--report' is not in this version of ncsim\n");
   EXPECT_EQ(Error({"check", "a.nc", "--gltf", "g"}),
             "ncsim: '--gltf' is not in this version of ncsim\n");
-  EXPECT_EQ(Error({"check", "a.nc", "--format", "sarif"}),
-            "ncsim: --format sarif is not in this version of ncsim; there are text and json\n");
 }
 
 TEST_F(OptionsTest, BadUsage) {

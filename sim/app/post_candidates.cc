@@ -46,7 +46,9 @@ std::optional<Judged> FindPassing(const JudgeWays& judge, int limit,
   for (int count = 1; judged && count < limit; ++count) {
     const post::PostedOperation* failing = nullptr;
     const Finding* why = nullptr;
-    for (const Finding& finding : judged->outcome.findings) {
+    const auto& result = judged->outcome.result;
+    if (!result) break;
+    for (const Finding& finding : result->findings) {
       if (!DependsOnWay(finding)) continue;
       const post::PostedOperation* operation = OperationAt(*judged, finding.where);
       if (operation == nullptr || given_up.count(operation->operation) > 0) continue;

@@ -26,6 +26,7 @@ class Bench {
     Judged result;
     result.program.files = {{"", ""}};
     result.outcome.files.Add("part.nc");
+    result.outcome.result.emplace();
     for (const int operation : {1, 2}) {
       post::PostedOperation posted;
       posted.operation = operation;
@@ -39,7 +40,7 @@ class Bench {
       finding.rule = rule;
       finding.where.line = operation * 10 + 5;
       finding.message = "T1 hits the vise";
-      result.outcome.findings.push_back(finding);
+      result.outcome.result->findings.push_back(finding);
     }
     return result;
   }
@@ -67,7 +68,7 @@ TEST(FindPassing, TheNextWayOfWhatFails) {
   bench.bad = {{2, 0}, {2, 1}};
   const auto found = bench.Find();
   EXPECT_THAT(Taken(*found), ElementsAre(0, 2));
-  EXPECT_THAT(found->outcome.findings, IsEmpty());
+  EXPECT_THAT(found->outcome.result->findings, IsEmpty());
   EXPECT_THAT(bench.judged, ElementsAre(Choice{}, Choice{{2, 1}}, Choice{{2, 2}}));
   EXPECT_THAT(bench.notes, ElementsAre("operation 2: way 1 of 3 fails: T1 hits the vise",
                                        "operation 2: way 2 of 3 fails: T1 hits the vise"));
@@ -85,7 +86,7 @@ TEST(FindPassing, WhereNoneOfThemPassesTheBestOneIsBackAndTheOthersGoOn) {
   bench.bad = {{1, 0}, {1, 1}, {1, 2}, {2, 0}};
   const auto found = bench.Find();
   EXPECT_THAT(Taken(*found), ElementsAre(0, 1));
-  EXPECT_EQ(found->outcome.findings.size(), 1u);
+  EXPECT_EQ(found->outcome.result->findings.size(), 1u);
   EXPECT_EQ(bench.notes[2],
             "operation 1: way 3 of 3 fails: T1 hits the vise; no way passes, the first one is "
             "taken");
@@ -97,7 +98,7 @@ TEST(FindPassing, WhatNoOtherWayCanMendIsLeft) {
   bench.rule = Rule::kToolMissing;
   const auto found = bench.Find();
   EXPECT_EQ(bench.judged.size(), 1u);
-  EXPECT_EQ(found->outcome.findings.size(), 1u);
+  EXPECT_EQ(found->outcome.result->findings.size(), 1u);
 }
 
 TEST(FindPassing, NoMoreThanTheLimit) {

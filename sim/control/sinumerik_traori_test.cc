@@ -394,7 +394,7 @@ TEST(SinumerikTraori, LeadAndTiltAreNamedWhereTheyAreNotClear) {
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
   for (const std::string block :
        {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5 TILT=1", "ORIPATH X2", "M77", "POS[X]=1", "TRACYL(40)",
-        "RNDM=2 X1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
+        "POSA[X]=1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
     const TestRun run = SinumerikTest().Run(std::string(kStart) + "G1 F500 X1\n" + block + "\n");
     EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << block << run.Text();
   }
