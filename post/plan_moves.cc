@@ -71,8 +71,8 @@ class Subdivision {
       Node next = end;
       if (i < parts) {
         next.t = begin.t + share * i / parts;
-        const auto between = geometry_.Between(curve_.Axis(next.t), last.rotary, end.rotary,
-                                               PoleTolerance(options_));
+        const auto between =
+            geometry_.Between(curve_.Axis(next.t), last.rotary, end.rotary, Beside());
         if (!between) return false;
         next.rotary = curve_.turn() < kSameAxis ? begin.rotary : *between;
       }
@@ -91,8 +91,7 @@ class Subdivision {
     }
     if (depth == kDeepest || nodes->size() >= kMostPieces) return false;
     const double t = 0.5 * (a.t + b.t);
-    const auto rotary =
-        geometry_.Between(curve_.Axis(t), a.rotary, b.rotary, PoleTolerance(options_));
+    const auto rotary = geometry_.Between(curve_.Axis(t), a.rotary, b.rotary, Beside());
     if (!rotary) return false;
     const Node middle{t, *rotary};
     return Split(a, middle, depth + 1, nodes) && Split(middle, b, depth + 1, nodes);
@@ -128,6 +127,9 @@ class Subdivision {
     return true;
   }
 
+  /// How far from the tool axis the second axis may go on in proportion: as PartGeometry::Between.
+  /// Where the control is told the tool's vector it goes where that says.
+  double Beside() const { return abilities_.great_circle ? 0.0 : PoleTolerance(options_); }
   /// A control that is told the tool's vector takes the nearest of the positions for it.
   bool IsNearest(const Node& a, const Node& b) const {
     const std::vector<Rotary> reach = geometry_.ReachAnywhere(curve_.Axis(b.t), a.rotary);
@@ -269,7 +271,8 @@ std::string FeedMoves(const PartGeometry& geometry, const PlanOptions& options,
   if (const auto visit = VisitPole(geometry, PoleTolerance(options), curve, from, to)) {
     const double turn = std::abs(visit->out[1] - visit->in[1]);
     const bool by_vector = options.abilities[static_cast<std::size_t>(frame.mode)].great_circle;
-    if (by_vector && turn > kQuarter) {
+    const bool between = visit->t > 0.0 && visit->t < 1.0;  // A vector beside it turns the table.
+    if (by_vector && (turn > kQuarter || between)) {
       return "the second rotary axis turns by " + Short(std::round(Degrees(turn))) +
              " deg at the pole, which the tool's vector does not tell a control: use a mode that "
              "names the rotary axes";

@@ -2,6 +2,7 @@
 #include "sim/app/compare_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -232,7 +233,8 @@ class Comparing {
       side->report.assumptions.push_back(
           {"cutter compensation",
            "the radius in D of each tool is its wear alone, taken as 0, for the points of " +
-               other.name + " are those of the tool's centre",
+               std::filesystem::path(other.name).filename().string() +
+               " are those of the tool's centre",
            true, false});
     }
     side->findings = path.TakeFindings();
