@@ -89,6 +89,15 @@ class PostFuzzTest : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete sites_; }
 
+  /// Names of the file stand in comments, whatever they are.
+  static std::string WithoutComments(const std::string& text, const std::string& open) {
+    std::string words, line;
+    for (std::istringstream lines(text); std::getline(lines, line);) {
+      words += line.substr(0, line.find(open)) + "\n";
+    }
+    return words;
+  }
+
   /// True where it can be posted.
   static bool RunAnywhere(const std::string& text, Random* random) {
     const Site& site = *(*sites_)[random->Below(sites_->size())];
@@ -101,8 +110,9 @@ class PostFuzzTest : public ::testing::Test {
     EXPECT_FALSE(program.files.empty());
     for (const PostedFile& file : program.files) {
       EXPECT_LT(file.text.size(), 20'000'000u);
-      EXPECT_EQ(file.text.find("nan"), std::string::npos);
-      EXPECT_EQ(file.text.find("inf"), std::string::npos);
+      const std::string words = WithoutComments(file.text, site.post().comments.open);
+      EXPECT_EQ(words.find("nan"), std::string::npos);
+      EXPECT_EQ(words.find("inf"), std::string::npos);
     }
     return true;
   }
