@@ -16,6 +16,7 @@ namespace {
 constexpr double kSameAxis = 1e-7;  // rad
 constexpr double kSameRotary = 1e-9;
 constexpr double kRounding = 1e-3;  // of a time: inverse time is printed with three decimals
+constexpr double kExactly = 1e-6;   // of a time
 
 bool SameAxis(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.cross(b).norm() < kSameAxis && a.dot(b) > 0.0;
@@ -389,7 +390,9 @@ bool Planner::State::FastEnough(const ClEvent& event, const PlanPose& from, cons
     to = from;
     to.xyz += Eigen::Vector3d::Constant(move.feed.value * time);
   }
-  const auto slow = geometry_.TooSlow(from, to, time * (1.0 + kRounding));
+  // Of a turn the time is what is printed, and it is rounded.
+  const double rounding = SameRotary(from.rotary, to.rotary) ? kExactly : -kRounding;
+  const auto slow = geometry_.TooSlow(from, to, time * (1.0 + rounding));
   if (!slow) return true;
   const double feed = 60.0 * move.feed.value * time / slow->time;
   Error(event.where, "a feed of " + Short(std::round(60.0 * move.feed.value)) +

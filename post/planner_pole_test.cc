@@ -11,7 +11,6 @@ namespace ncsim::post {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 constexpr const char* kUmc = "haas_umc750/umc750.urdf";          // B -35 to 120
 constexpr const char* kBc = "bc_table_840d/bc_table_840d.urdf";  // B -11 to 100

@@ -165,6 +165,28 @@ std::vector<RapidEnd> CloseGaps(Toolpath* path, const Radii& radii) {
   return closed;
 }
 
+void DropRests(Toolpath* path, const Radii& radii) {
+  std::vector<Run> runs;
+  std::vector<Gap> gaps;
+  if (!path->gaps.empty()) gaps.push_back(std::move(path->gaps.front()));
+  for (std::size_t i = 0; i < path->runs.size(); ++i) {
+    Run& run = path->runs[i];
+    Gap& behind = path->gaps[i + 1];
+    const Pose& at = run.vertices.front();
+    const bool rests = std::all_of(run.vertices.begin(), run.vertices.end(),
+                                   [&](const Pose& pose) { return Within(at, pose, radii); });
+    if (rests) {
+      gaps.back().tool_change = gaps.back().tool_change || behind.tool_change;
+      gaps.back().ends.insert(gaps.back().ends.end(), behind.ends.begin(), behind.ends.end());
+      continue;
+    }
+    runs.push_back(std::move(run));
+    gaps.push_back(std::move(behind));
+  }
+  path->runs = std::move(runs);
+  path->gaps = std::move(gaps);
+}
+
 Run Join(const Toolpath& path, std::size_t begin, std::size_t end, std::vector<Piece>* pieces) {
   Run whole = path.runs[begin];
   for (std::size_t i = begin + 1; i < end; ++i) {

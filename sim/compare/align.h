@@ -37,6 +37,10 @@ std::vector<RunPair> PairByEnds(const std::vector<Run>& a, const std::vector<Run
 /// where the feed was left.
 std::vector<RapidEnd> CloseGaps(Toolpath* path, const Radii& radii);
 
+/// Leaves out runs that are shorter than the tolerance: where points are rounded they may fall
+/// away.
+void DropRests(Toolpath* path, const Radii& radii);
+
 /// Runs [begin, end) as one, each gap closed by a straight rapid, for which `pieces` gets entries.
 Run Join(const Toolpath& path, std::size_t begin, std::size_t end, std::vector<Piece>* pieces);
 
