@@ -14,6 +14,7 @@
 #include "sim/app/assumptions.h"
 #include "sim/app/finding_log.h"
 #include "sim/app/nominal.h"
+#include "sim/app/pictures.h"
 #include "sim/app/pipeline.h"
 #include "sim/app/program_input.h"
 #include "sim/app/tool_source.h"
@@ -29,11 +30,12 @@ class ProgramCheck {
  public:
   ProgramCheck(const CheckOptions& options, const std::string& program,
                const ProgressReport& progress, const collision::OutcomeCache* cache)
-      : options_(options), name_(program), progress_(progress), cache_(cache) {}
+      : options_(options), name_(program), progress_(progress), cache_(cache), pictures_(options) {}
 
   ProgramOutcome Run() {
     outcome_.exit_code = kExitBadInput;
-    const bool loaded = LoadProgram() && LoadJob() && LoadMachine() && BuildScene() && OpenTrace();
+    const bool loaded = LoadProgram() && LoadJob() && LoadMachine() && BuildScene() &&
+                        OpenTrace() && OpenPictures();
     AppendDiagnostics();
     if (!loaded) return std::move(outcome_);
     Simulate();
@@ -43,6 +45,7 @@ class ProgramCheck {
     }
     if (!CloseTrace()) return std::move(outcome_);
     Judge();
+    if (!WritePictures()) return std::move(outcome_);
     Report();
     return std::move(outcome_);
   }
@@ -110,6 +113,22 @@ class ProgramCheck {
     return false;
   }
 
+  bool OpenPictures() {
+    std::string complaint;
+    if (pictures_.Open(&complaint)) return true;
+    Complain(complaint);
+    return false;
+  }
+
+  bool WritePictures() {
+    std::string complaint;
+    Diagnostics missing;
+    const bool written = pictures_.Write(pipeline_->used_tools(), &missing, &complaint);
+    for (const Diagnostic& diagnostic : missing.all()) Complain(ToString(diagnostic));
+    if (!written) Complain(complaint);
+    return written;
+  }
+
   /// Tells `progress_` by lines of the program itself; a subprogram's are those of its call.
   std::function<void(const motion::Window&)> WindowReport() const {
     if (!progress_) return {};
@@ -138,6 +157,8 @@ class ProgramCheck {
     parts.files = &files_;
     parts.part_frames = &part_frames_;
     parts.trace = trace_ ? &*trace_ : nullptr;
+    pictures_.Start(*machine_, scene_, tools_);
+    parts.recorder = pictures_.recorder();
     parts.collision = checker_ ? &*checker_ : nullptr;
     parts.log = &log_;
     pipeline_.emplace(parts, WindowReport());
@@ -253,6 +274,7 @@ class ProgramCheck {
   SourceFiles files_;
   std::vector<control::PartFrame> part_frames_;
   FindingLog log_;
+  Pictures pictures_;
   std::optional<Pipeline> pipeline_;
   control::RunSummary summary_;
   report::CheckResult result_;

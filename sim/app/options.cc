@@ -37,7 +37,7 @@ constexpr const char* kExamples =
 
 /// Of the contract, but of later versions: refused by name, never accepted and ignored.
 const std::vector<std::string> kLaterCommands = {"post", "nightly"};
-const std::vector<std::string> kLaterOptions = {"--report", "--gltf"};
+const std::vector<std::string> kLaterOptions = {"--report"};
 const std::vector<std::string> kLaterFormats = {"sarif", "junit", "github"};
 
 bool Contains(const std::vector<std::string>& list, const std::string& item) {
@@ -132,6 +132,10 @@ class CommandLine {
     check_
         ->add_option("--trace", o.trace, "write a row at the end of each motion (one program only)")
         ->type_name("T.csv");
+    check_
+        ->add_option("--gltf", o.gltf,
+                     "write the machine in motion as a binary glTF file (one program only)")
+        ->type_name("G.glb");
     check_
         ->add_option("--cache", o.cache,
                      "keep what was computed in this folder, and compute only what has changed; "
@@ -252,6 +256,7 @@ class CommandLine {
     if (o.programs.empty()) return "check needs a program: ncsim check part.nc --model umc750.urdf";
     if (check_->count("--cache") > 0 && o.cache.empty()) return "--cache takes a folder";
     if (!o.trace.empty() && o.programs.size() > 1) return "--trace takes one program";
+    if (!o.gltf.empty() && o.programs.size() > 1) return "--gltf takes one program";
     return "";
   }
 

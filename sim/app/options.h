@@ -22,6 +22,7 @@ struct CheckOptions {
   Format format = Format::kText;
   std::string out;    ///< Report file; "" for standard output.
   std::string trace;  ///< "" for none.
+  std::string gltf;   ///< "" for none.
   std::string cache;  ///< Folder; "" for none.
   bool interpret_only = false;
 };

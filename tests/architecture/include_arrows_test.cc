@@ -51,7 +51,7 @@ const std::vector<Library> kLibraries = {
     {"toml\\+\\+|toml\\.hpp", "sim/base", 1},
     {"xxhash", "sim/base", 1},
     {"CLI/", "sim/app", 1},
-    {"nlohmann/", "sim/report", 1},
+    {"nlohmann/", "sim/report", 2},
 };
 
 struct Include {
