@@ -123,7 +123,10 @@ class ProgramCheck {
   bool WritePictures() {
     std::string complaint;
     Diagnostics missing;
-    const bool written = pictures_.Write(pipeline_->used_tools(), &missing, &complaint);
+    SourceLines texts(files_);
+    texts.Know(0, program_);
+    const bool written =
+        pictures_.Write(result_, files_, &texts, pipeline_->used_tools(), &missing, &complaint);
     for (const Diagnostic& diagnostic : missing.all()) Complain(ToString(diagnostic));
     if (!written) Complain(complaint);
     return written;
@@ -230,6 +233,11 @@ class ProgramCheck {
     result.findings = log_.Take();
     result.assumptions = summary_.assumptions;
     result.verdict = ncsim::Judge(result.findings, result.assumptions, options_.strict);
+    result.program = name_;
+    result.model = machine_->name;
+    result.job = job_->path;
+    result.blocks = summary_.blocks;
+    result.motion_time = summary_.motion_time;
   }
 
   std::vector<std::string> AssumptionNames() const {
@@ -239,11 +247,6 @@ class ProgramCheck {
   }
 
   void Report() {
-    result_.program = name_;
-    result_.model = machine_->name;
-    result_.job = job_->path;
-    result_.blocks = summary_.blocks;
-    result_.motion_time = summary_.motion_time;
     std::ostringstream text;
     if (options_.format == Format::kJson) {
       report::WriteJson(result_, files_, text);

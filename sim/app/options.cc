@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 #include "sim/app/app.h"
 #include "sim/app/version.h"
@@ -37,7 +36,6 @@ constexpr const char* kExamples =
 
 /// Of the contract, but of later versions: refused by name, never accepted and ignored.
 const std::vector<std::string> kLaterCommands = {"post", "nightly"};
-const std::vector<std::string> kLaterOptions = {"--report"};
 const std::vector<std::string> kLaterFormats = {"sarif", "junit", "github"};
 
 bool Contains(const std::vector<std::string>& list, const std::string& item) {
@@ -133,6 +131,11 @@ class CommandLine {
         ->add_option("--trace", o.trace, "write a row at the end of each motion (one program only)")
         ->type_name("T.csv");
     check_
+        ->add_option("--report", o.report,
+                     "write a page that shows the run in three dimensions: opens from disk in any "
+                     "browser (one program only)")
+        ->type_name("R.html");
+    check_
         ->add_option("--gltf", o.gltf,
                      "write the machine in motion as a binary glTF file (one program only)")
         ->type_name("G.glb");
@@ -143,9 +146,6 @@ class CommandLine {
         ->type_name("DIR");
     check_->add_flag("--interpret-only", o.interpret_only,
                      "leave out the collision checks; the verdict is unproven at best");
-    for (const std::string& name : kLaterOptions) {
-      check_->add_option(name, later_.emplace_back())->group("");
-    }
   }
 
   void AddCompare() {
@@ -240,9 +240,6 @@ class CommandLine {
   std::string FinishCheck() {
     command_.kind = Command::Kind::kCheck;
     CheckOptions& o = command_.check;
-    for (const std::string& name : kLaterOptions) {
-      if (check_->count(name) > 0) return "'" + name + "' is not in this version of ncsim";
-    }
     if (const std::string error = FinishCommon(check_, &o.format, &o.assume); !error.empty()) {
       return error;
     }
@@ -256,6 +253,7 @@ class CommandLine {
     if (o.programs.empty()) return "check needs a program: ncsim check part.nc --model umc750.urdf";
     if (check_->count("--cache") > 0 && o.cache.empty()) return "--cache takes a folder";
     if (!o.trace.empty() && o.programs.size() > 1) return "--trace takes one program";
+    if (!o.report.empty() && o.programs.size() > 1) return "--report takes one program";
     if (!o.gltf.empty() && o.programs.size() > 1) return "--gltf takes one program";
     return "";
   }
@@ -270,7 +268,6 @@ class CommandLine {
   double clearance_ = 0.0;
   double tolerance_ = 0.0, angle_tolerance_ = 0.0;
   std::string format_ = "text";
-  std::deque<std::string> later_;  // A deque: the parser keeps references.
 };
 
 Command UsageError(const std::string& message, std::ostream& err) {

@@ -4,6 +4,9 @@
 namespace ncsim::app {
 namespace {
 
+/// Instants at which the page shows the least clearance.
+constexpr int kClearanceLooks = 1000;
+
 bool OpenFile(const std::string& path, std::ofstream* file, std::string* complaint) {
   if (path.empty()) return true;
   file->open(path, std::ios::binary | std::ios::trunc);
@@ -22,7 +25,9 @@ bool CloseFile(const std::string& path, std::ofstream* file, std::string* compla
 
 }  // namespace
 
-bool Pictures::Open(std::string* complaint) { return OpenFile(options_.gltf, &gltf_, complaint); }
+bool Pictures::Open(std::string* complaint) {
+  return OpenFile(options_.gltf, &gltf_, complaint) && OpenFile(options_.report, &page_, complaint);
+}
 
 void Pictures::Start(const machine::Machine& machine, const machine::Scene& scene,
                      const machine::ToolTable& tools) {
@@ -33,14 +38,33 @@ void Pictures::Start(const machine::Machine& machine, const machine::Scene& scen
   recorder_.emplace(machine, scene, tools);
 }
 
-bool Pictures::Write(const std::vector<int>& used_tools, Diagnostics* diagnostics,
-                     std::string* complaint) {
+void Pictures::WritePage(const report::CheckResult& result, const SourceFiles& files,
+                         SourceLines* texts, const report::Picture& picture) {
+  report::Page page;
+  page.result = &result;
+  page.files = &files;
+  page.picture = &picture;
+  for (int file = 0; file < files.size(); ++file) {
+    page.texts.push_back({files.name(file), texts->Text(file)});
+  }
+  if (!options_.interpret_only) {
+    page.clearance = report::LookAtClearance(*machine_, *scene_, *tools_, picture.recording,
+                                             result.findings, kClearanceLooks);
+  }
+  report::WriteHtml(page, page_);
+}
+
+bool Pictures::Write(const report::CheckResult& result, const SourceFiles& files,
+                     SourceLines* texts, const std::vector<int>& used_tools,
+                     Diagnostics* diagnostics, std::string* complaint) {
   if (!wanted()) return true;
   const report::Picture picture =
       report::MakePicture(*machine_, machine::LoadVisuals(*machine_, diagnostics), *scene_, *tools_,
                           used_tools, recorder_->Finish());
   if (!options_.gltf.empty()) report::WriteGltf(picture, gltf_);
-  return CloseFile(options_.gltf, &gltf_, complaint);
+  if (!options_.report.empty()) WritePage(result, files, texts, picture);
+  const bool gltf = CloseFile(options_.gltf, &gltf_, complaint);
+  return CloseFile(options_.report, &page_, complaint) && gltf;
 }
 
 }  // namespace ncsim::app

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "sim/app/options.h"
-#include "sim/report/picture.h"
+#include "sim/app/program_input.h"
+#include "sim/report/page.h"
 
 namespace ncsim::app {
 
@@ -18,7 +19,7 @@ class Pictures {
 
   /// Before the run, so that a file that cannot be written is said at once. False, and a complaint.
   bool Open(std::string* complaint);
-  bool wanted() const { return !options_.gltf.empty(); }
+  bool wanted() const { return !options_.gltf.empty() || !options_.report.empty(); }
   /// Before the run, where pictures are wanted. All outlive this.
   void Start(const machine::Machine& machine, const machine::Scene& scene,
              const machine::ToolTable& tools);
@@ -26,11 +27,15 @@ class Pictures {
   report::Recorder* recorder() { return recorder_ ? &*recorder_ : nullptr; }
   /// After the run. What the model's visual shapes lack goes to `diagnostics`. False, and a
   /// complaint, where a file could not be written.
-  bool Write(const std::vector<int>& used_tools, Diagnostics* diagnostics, std::string* complaint);
+  bool Write(const report::CheckResult& result, const SourceFiles& files, SourceLines* texts,
+             const std::vector<int>& used_tools, Diagnostics* diagnostics, std::string* complaint);
 
  private:
+  void WritePage(const report::CheckResult& result, const SourceFiles& files, SourceLines* texts,
+                 const report::Picture& picture);
+
   const CheckOptions& options_;
-  std::ofstream gltf_;
+  std::ofstream gltf_, page_;
   const machine::Machine* machine_ = nullptr;
   const machine::Scene* scene_ = nullptr;
   const machine::ToolTable* tools_ = nullptr;

@@ -41,8 +41,8 @@ ShownRun::ShownRun(const fs::path& program, const std::vector<std::string>& opti
             ("ncsim_shown_" + std::to_string(getpid()) + "_" + std::to_string(++runs));
   fs::create_directories(folder_);
   const fs::path trace = folder_ / "run.csv";
-  std::vector<std::string> args = {"check",        program.string(), "--trace",
-                                   trace.string(), "--gltf",         gltf().string()};
+  std::vector<std::string> args = {"check",  program.string(), "--trace",  trace.string(),
+                                   "--gltf", gltf().string(),  "--report", html().string()};
   args.insert(args.end(), options.begin(), options.end());
   std::ostringstream out, err;
   exit_code_ = app::Run(args, out, err);
