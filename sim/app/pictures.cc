@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/app/pictures.h"
 
+#include <filesystem>
+
 namespace ncsim::app {
 namespace {
 
@@ -23,7 +25,19 @@ bool CloseFile(const std::string& path, std::ofstream* file, std::string* compla
   return false;
 }
 
+void Discard(const std::string& path, std::ofstream* file) {
+  if (!file->is_open()) return;
+  file->close();
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+}
+
 }  // namespace
+
+Pictures::~Pictures() {
+  Discard(options_.gltf, &gltf_);
+  Discard(options_.report, &page_);
+}
 
 bool Pictures::Open(std::string* complaint) {
   return OpenFile(options_.gltf, &gltf_, complaint) && OpenFile(options_.report, &page_, complaint);

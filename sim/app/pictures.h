@@ -16,6 +16,10 @@ namespace ncsim::app {
 class Pictures {
  public:
   explicit Pictures(const CheckOptions& options) : options_(options) {}
+  /// Files that were opened and not written go: a program that cannot be checked leaves none.
+  ~Pictures();
+  Pictures(const Pictures&) = delete;
+  Pictures& operator=(const Pictures&) = delete;
 
   /// Before the run, so that a file that cannot be written is said at once. False, and a complaint.
   bool Open(std::string* complaint);

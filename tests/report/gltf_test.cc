@@ -188,6 +188,15 @@ TEST(GltfTest, AToolIsThereWhileItIsInTheSpindle) {
   EXPECT_EQ(seen.size(), tools.size());
 }
 
+TEST(GltfTest, TheSameRunGivesTheSameBytes) {
+  const ShownRun one(ScenePath("crash_gallery/collision.nc"), {"--jobs", "1"});
+  const ShownRun two(ScenePath("crash_gallery/collision.nc"), {"--jobs", "2"});
+  EXPECT_GT(ReadBytes(one.gltf()).size(), 100'000U);
+  EXPECT_GT(ReadBytes(one.html()).size(), 100'000U);
+  EXPECT_EQ(ReadBytes(one.gltf()), ReadBytes(two.gltf()));
+  EXPECT_EQ(ReadBytes(one.html()), ReadBytes(two.html()));
+}
+
 TEST(GltfTest, TheKhronosValidatorPassesTheScenes) {
   for (const char* scene : {"crash_gallery/collision.nc", "three_plus_two/angle_block.nc",
                             "impeller_840d/impeller.mpf"}) {
