@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the meshes of the scenes (Debian: openscad, python3) and the program that a script writes.
+# Makes the meshes of the scenes (Debian: openscad, python3) and what scripts write.
 #   build.sh           writes them
 #   build.sh --check   makes them elsewhere, and fails if what is committed differs
 set -eu
@@ -17,6 +17,7 @@ for source in "$here"/*/*.scad; do
   python3 "$stl" "$work/part.stl" "$work/$scene/$name.stl"
 done
 python3 "$here/five_axis/generate.py" > "$work/five_axis/dome.nc"
+python3 "$here/posted/generate.py" > "$work/posted/hub.cls"
 
 status=0
 for made in "$work"/*/*; do

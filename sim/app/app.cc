@@ -11,6 +11,7 @@
 #include "sim/app/compare_command.h"
 #include "sim/app/explain.h"
 #include "sim/app/options.h"
+#include "sim/app/post_command.h"
 #include "sim/app/program_dir.h"
 #include "sim/machine/load.h"
 
@@ -38,6 +39,8 @@ int RunCommand(const Command& command, std::ostream& out, std::ostream& err) {
   switch (command.kind) {
     case Command::Kind::kCheck:
       return Check(command.check, out, err);
+    case Command::Kind::kPost:
+      return Post(command.post, out, err);
     case Command::Kind::kCompare:
       return Compare(command.compare, out, err);
     case Command::Kind::kInspect:

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <exception>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <thread>
 #include <vector>
@@ -12,7 +14,10 @@
 #include "sim/app/app.h"
 #include "sim/app/cache_folder.h"
 #include "sim/app/check_program.h"
+#include "sim/app/program_input.h"
+#include "sim/app/version.h"
 #include "sim/collision/threads.h"
+#include "sim/report/batch.h"
 
 namespace ncsim::app {
 namespace {
@@ -58,8 +63,39 @@ std::vector<ProgramOutcome> CheckAll(const CheckOptions& options,
   return outcomes;
 }
 
+/// In a format that has all programs in one document.
+void WriteBatch(const CheckOptions& options, const std::vector<ProgramOutcome>& outcomes,
+                std::ostream& out) {
+  std::deque<SourceLines> lines;  // A deque: the reports refer to them.
+  std::vector<report::ProgramReport> programs;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const ProgramOutcome& outcome = outcomes[i];
+    report::ProgramReport program{options.programs[i], nullptr, nullptr, {}, outcome.messages};
+    if (outcome.result) {
+      program.result = &*outcome.result;
+      program.files = &outcome.files;
+      program.line_text = std::ref(lines.emplace_back(outcome.files));
+    }
+    programs.push_back(std::move(program));
+  }
+  switch (options.format) {
+    case Format::kSarif:
+      return report::WriteSarif(programs, kVersion, out);
+    case Format::kJunit:
+      return report::WriteJunit(programs, out);
+    case Format::kGithub:
+      return report::WriteGithub(programs, out);
+    case Format::kText:
+    case Format::kJson:
+      break;
+  }
+}
+
 void WriteReports(const CheckOptions& options, const std::vector<ProgramOutcome>& outcomes,
                   std::ostream& out) {
+  if (options.format != Format::kText && options.format != Format::kJson) {
+    return WriteBatch(options, outcomes, out);
+  }
   const bool array = options.format == Format::kJson && options.programs.size() > 1;
   bool first = true;
   if (array) out << "[\n";

@@ -112,6 +112,27 @@ TEST_F(CheckCommandTest, ATcpBulgeIsFoundInTheMiddleOfABlock) {
   EXPECT_THAT(LastLine(), HasSubstr(": 1 error, "));
 }
 
+TEST_F(CheckCommandTest, FormatsOfServicesHaveAllProgramsInOneDocument) {
+  const std::string good = Write("good.nc", Program("G01 X10. F100."));
+  const std::string bad = Write("bad.nc", Program("G01 X900. F100."));
+  const std::string none = Path("none.nc");
+  const auto text = [&](const std::string& format) {
+    EXPECT_EQ(CheckWithJob({good, bad, none, "--format", format}), kExitBadInput);
+    return out_;
+  };
+  for (const char* format : {"sarif", "junit", "github"}) {
+    const std::string report = text(format);
+    EXPECT_THAT(report, HasSubstr("travel-limit")) << format;
+    EXPECT_THAT(report, HasSubstr("none.nc: error: cannot be read")) << format;
+    EXPECT_EQ(report.find("not-checked") != std::string::npos, true) << format;
+  }
+  EXPECT_THAT(text("junit"), HasSubstr("tests=\"3\" failures=\"1\" errors=\"1\""));
+  // Into a file, with a summary line a program on standard output.
+  CheckWithJob({good, bad, "--format", "sarif", "--out", Path("r.sarif")});
+  EXPECT_THAT(out_, HasSubstr("bad.nc: fail"));
+  EXPECT_THAT(Read("r.sarif"), HasSubstr("\"version\": \"2.1.0\""));
+}
+
 TEST_F(CheckCommandTest, AProgramThatMovesNothingIsBadInput) {
   EXPECT_EQ(CheckWithJob({Write("a.nc", "%\nG21\nM30\n%\n")}), kExitBadInput);
   EXPECT_EQ(out_, "");

@@ -29,8 +29,14 @@ namespace {
 class ProgramCheck {
  public:
   ProgramCheck(const CheckOptions& options, const std::string& program,
-               const ProgressReport& progress, const collision::OutcomeCache* cache)
-      : options_(options), name_(program), progress_(progress), cache_(cache), pictures_(options) {}
+               const ProgressReport& progress, const collision::OutcomeCache* cache,
+               std::shared_ptr<const nc::Program> text)
+      : options_(options),
+        name_(program),
+        progress_(progress),
+        cache_(cache),
+        program_(std::move(text)),
+        pictures_(options) {}
 
   ProgramOutcome Run() {
     outcome_.exit_code = kExitBadInput;
@@ -47,6 +53,8 @@ class ProgramCheck {
     Judge();
     if (!WritePictures()) return std::move(outcome_);
     Report();
+    outcome_.result = std::move(result_);
+    outcome_.files = std::move(files_);
     return std::move(outcome_);
   }
 
@@ -58,7 +66,7 @@ class ProgramCheck {
   }
 
   bool LoadProgram() {
-    program_ = nc::Program::Load(name_, &diagnostics_);
+    if (program_ == nullptr) program_ = nc::Program::Load(name_, &diagnostics_);
     return program_ != nullptr && !diagnostics_.has_errors();
   }
 
@@ -250,7 +258,7 @@ class ProgramCheck {
     std::ostringstream text;
     if (options_.format == Format::kJson) {
       report::WriteJson(result_, files_, text);
-    } else {
+    } else if (options_.format == Format::kText) {
       SourceLines lines(files_);
       lines.Know(0, program_);
       report::WriteText(result_, files_, std::ref(lines), text);
@@ -286,8 +294,9 @@ class ProgramCheck {
 }  // namespace
 
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
-                            const ProgressReport& progress, const collision::OutcomeCache* cache) {
-  return ProgramCheck(options, program, progress, cache).Run();
+                            const ProgressReport& progress, const collision::OutcomeCache* cache,
+                            std::shared_ptr<const nc::Program> text) {
+  return ProgramCheck(options, program, progress, cache, std::move(text)).Run();
 }
 
 }  // namespace ncsim::app

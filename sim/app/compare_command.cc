@@ -32,6 +32,9 @@ namespace {
 /// The deviation that is allowed beside one output increment, mm and deg.
 constexpr double kPosition = 0.005, kAngle = 0.01;
 
+/// The tested program is followed first.
+constexpr int kTestedFile = 0;
+
 /// What the last digit of a post's words counts: position mm, feed mm/s.
 struct Increments {
   double position = 0.001, feed = 1.0 / 60.0;
@@ -83,16 +86,45 @@ class Comparing {
     tested_.job_option = options.job_b.empty() ? options.job : options.job_b;
   }
 
-  int Run(std::ostream& out) {
-    if (!Load(&reference_) || !Load(&tested_)) return kExitBadInput;
+  /// `tested`: the text of B where it is in no file; else null.
+  bool Hold(std::shared_ptr<const nc::Program> tested) {
+    tested_.program = std::move(tested);
+    if (!Load(&reference_) || !Load(&tested_)) return false;
     // What the CAM system meant is what is right.
     if (tested_.cl && !reference_.cl) std::swap(reference_, tested_);
     SetTolerances();
     // The tested program first: its findings, and its files, come first.
-    if (!Follow(&tested_) || !Follow(&reference_)) return kExitBadInput;
+    if (!Follow(&tested_) || !Follow(&reference_)) return false;
     Judge();
-    return Write(out) ? ExitOf(result_.verdict) : kExitBadInput;
+    return true;
   }
+
+  std::string Text() const {
+    std::ostringstream text;
+    if (options_.format == Format::kJson) {
+      report::WriteJson(result_, files_, text);
+    } else {
+      SourceLines lines(files_);
+      lines.Know(kTestedFile, tested_.program);
+      report::WriteText(result_, files_, std::ref(lines), text);
+    }
+    return std::move(text).str();
+  }
+
+  bool Write(std::ostream& out) {
+    if (options_.out.empty()) {
+      out << Text();
+      return true;
+    }
+    std::ofstream file(options_.out, std::ios::binary | std::ios::trunc);
+    file << Text();
+    file.close();
+    if (!file) return Complain(options_.out + ": error: cannot be written");
+    out << report::Summary(result_) << "\n";
+    return true;
+  }
+
+  const report::CompareResult& result() const { return result_; }
 
  private:
   bool Complain(const std::string& message) {
@@ -107,7 +139,7 @@ class Comparing {
 
   bool Load(Side* side) {
     Diagnostics diagnostics;
-    side->program = nc::Program::Load(side->name, &diagnostics);
+    if (side->program == nullptr) side->program = nc::Program::Load(side->name, &diagnostics);
     if (side->program == nullptr || !Fine(diagnostics)) return Fine(diagnostics);
     side->report.program = side->name;
     side->cl = IsClFile(*side->program);
@@ -151,6 +183,8 @@ class Comparing {
     Diagnostics diagnostics;
     post::ClOptions options;
     options.need_tool = false;  // Tools are not compared.
+    options.unit = options_.cl.unit;
+    options.flavour = options_.cl.flavour;
     post::ClPath path(side->program, files_.Add(side->name), options, &diagnostics);
     compare::ClToolpath toolpath(compare::ChordErrorFor(result_.tolerances));
     for (post::ClEvent event; path.Next(&event); ++side->report.blocks) toolpath.OnEvent(event);
@@ -214,26 +248,6 @@ class Comparing {
     result_.tested = tested_.report;
   }
 
-  bool Write(std::ostream& out) {
-    std::ostringstream text;
-    if (options_.format == Format::kJson) {
-      report::WriteJson(result_, files_, text);
-    } else {
-      SourceLines lines(files_);
-      report::WriteText(result_, files_, std::ref(lines), text);
-    }
-    if (options_.out.empty()) {
-      out << text.str();
-      return true;
-    }
-    std::ofstream file(options_.out, std::ios::binary | std::ios::trunc);
-    file << text.str();
-    file.close();
-    if (!file) return Complain(options_.out + ": error: cannot be written");
-    out << report::Summary(result_) << "\n";
-    return true;
-  }
-
   const CompareOptions& options_;
   std::ostream* err_;
   Side reference_, tested_;
@@ -245,7 +259,18 @@ class Comparing {
 }  // namespace
 
 int Compare(const CompareOptions& options, std::ostream& out, std::ostream& err) {
-  return Comparing(options, err).Run(out);
+  Comparing comparing(options, err);
+  if (!comparing.Hold(nullptr) || !comparing.Write(out)) return kExitBadInput;
+  return ExitOf(comparing.result().verdict);
+}
+
+HeldTogether CompareText(const CompareOptions& options, std::shared_ptr<const nc::Program> tested,
+                         std::ostream& err) {
+  Comparing comparing(options, err);
+  if (!comparing.Hold(std::move(tested))) return {kExitBadInput, ""};
+  const report::CompareResult& result = comparing.result();
+  const bool pass = result.verdict == Verdict::kPass;
+  return {ExitOf(result.verdict), pass ? report::Nearness(result) + "\n" : comparing.Text()};
 }
 
 }  // namespace ncsim::app

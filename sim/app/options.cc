@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/app/app.h"
 #include "sim/app/version.h"
@@ -25,6 +26,9 @@ constexpr const char* kExamples =
     "it is there\n"
     "  ncsim check part.nc --job vise.toml --clearance 2 warn where anything comes closer than 2 "
     "mm\n"
+    "  ncsim post part.cls --model umc750.urdf -o part.nc\n"
+    "                                                    write part.nc for the machine, and check "
+    "it\n"
     "  ncsim compare old.nc new.nc --model umc750.urdf   do both move the tool alike in the part?\n"
     "  ncsim inspect umc750.urdf                         what the model says, and what is wrong "
     "with it\n"
@@ -35,8 +39,15 @@ constexpr const char* kExamples =
     "3 bad input or usage, 4 internal error.";
 
 /// Of the contract, but of later versions: refused by name, never accepted and ignored.
-const std::vector<std::string> kLaterCommands = {"post", "nightly"};
-const std::vector<std::string> kLaterFormats = {"sarif", "junit", "github"};
+const std::vector<std::string> kLaterCommands = {"nightly"};
+
+const std::vector<std::pair<std::string, Format>> kCheckFormats = {{"text", Format::kText},
+                                                                   {"json", Format::kJson},
+                                                                   {"sarif", Format::kSarif},
+                                                                   {"junit", Format::kJunit},
+                                                                   {"github", Format::kGithub}};
+const std::vector<std::pair<std::string, Format>> kCompareFormats = {{"text", Format::kText},
+                                                                     {"json", Format::kJson}};
 
 bool Contains(const std::vector<std::string>& list, const std::string& item) {
   return std::find(list.begin(), list.end(), item) != list.end();
@@ -61,6 +72,7 @@ class CommandLine {
     app_.footer(kExamples);
     app_.allow_extras();
     AddCheck();
+    AddPost();
     AddCompare();
     inspect_ = AddCommand("inspect", "print a machine model in words, and what its lint found");
     inspect_->add_option("MODEL", command_.model, "the machine, as for check --model");
@@ -74,6 +86,7 @@ class CommandLine {
     app_.parse(std::move(args));
     if (const std::string error = Leftover(); !error.empty()) return error;
     if (check_->parsed()) return FinishCheck();
+    if (post_->parsed()) return FinishPost();
     if (compare_->parsed()) return FinishCompare();
     if (inspect_->parsed()) {
       command_.kind = Command::Kind::kInspect;
@@ -83,7 +96,7 @@ class CommandLine {
       command_.kind = Command::Kind::kExplain;
       return "";
     }
-    return "which command? check, compare, inspect or explain (ncsim --help)";
+    return "which command? check, post, compare, inspect or explain (ncsim --help)";
   }
 
   const Command& command() const { return command_; }
@@ -125,7 +138,8 @@ class CommandLine {
                      "threads to use; the report is the same for any number (default: as many as "
                      "there are processors)")
         ->type_name("N");
-    check_->add_option("--format", format_, "text or json")->type_name("FORMAT");
+    check_->add_option("--format", format_, "text, json, sarif, junit or github")
+        ->type_name("FORMAT");
     check_->add_option("--out", o.out, "write the report to this file")->type_name("FILE");
     check_
         ->add_option("--trace", o.trace, "write a row at the end of each motion (one program only)")
@@ -146,6 +160,54 @@ class CommandLine {
         ->type_name("DIR");
     check_->add_flag("--interpret-only", o.interpret_only,
                      "leave out the collision checks; the verdict is unproven at best");
+  }
+
+  void AddPost() {
+    PostCommandOptions& o = command_.post;
+    post_ = AddCommand("post",
+                       "write the NC program of a cutter-location file (CLSF, APT), and check it");
+    post_->add_option("CLFILE", o.cl_file, "what the CAM system has written");
+    post_->add_option("--model", o.model, "the machine, as for check")->type_name("M.urdf");
+    post_
+        ->add_option("--mode", o.mode,
+                     "a mode of the post for all operations (default: what each one needs)")
+        ->type_name("NAME");
+    post_->add_option("--job", o.job, "as for check: what the program is checked with")
+        ->type_name("J.toml");
+    post_->add_option("-o,--out", o.out, "the program (default: standard output)")
+        ->type_name("OUT.nc");
+    post_
+        ->add_option("--post", o.post,
+                     "what the program looks like (default: MODEL.post.toml beside the model)")
+        ->type_name("P.post.toml");
+    post_->add_option("--set", constants_, "a constant of the post: --set offset=G55")
+        ->type_name("NAME=TEXT")
+        ->allow_extra_args(false);
+    post_->add_option("--number", number_, "O number of the program")->type_name("N");
+    post_->add_option("--unit", unit_, "of the program: mm or inch")->type_name("UNIT");
+    post_
+        ->add_option("--tolerance", tolerance_,
+                     "how far what is made of an arc or a turn may be off it (default: 0.004 mm)")
+        ->type_name("MM");
+    post_->add_option("--first-tool", first_tool_, "the tool, where the file loads none")
+        ->type_name("T");
+    post_->add_flag("--split", o.file_for_operation,
+                    "a file for each operation beside OUT, and a program that calls them");
+    post_->add_flag("--no-check", no_check_, "write without checking");
+    post_->add_option("--assume", assume_, "as for check")
+        ->type_name("all|NAME,...")
+        ->allow_extra_args(false);
+    post_->add_flag("--strict", o.strict, "as for check");
+    AddClInput(post_);
+  }
+
+  void AddClInput(CLI::App* command) {
+    command->add_option("--cl-unit", cl_unit_, "of a CL file that does not say: mm or inch")
+        ->type_name("UNIT");
+    command
+        ->add_option("--cl-system", cl_system_,
+                     "that wrote a CL file which does not show it: nx, creo, solidworks or apt")
+        ->type_name("SYSTEM");
   }
 
   void AddCompare() {
@@ -174,6 +236,7 @@ class CommandLine {
     compare_->add_flag("--strict", o.strict, "any assumption that is not accepted makes unproven");
     compare_->add_option("--format", format_, "text or json")->type_name("FORMAT");
     compare_->add_option("--out", o.out, "write the report to this file")->type_name("FILE");
+    AddClInput(compare_);
   }
 
   /// What the parser could not place, with a suggestion.
@@ -197,28 +260,102 @@ class CommandLine {
     return "unknown command '" + extra + "'" + DidYouMean(extra, known);
   }
 
+  std::string ReadFormat(const std::vector<std::pair<std::string, Format>>& formats,
+                         Format* format) const {
+    std::vector<std::string> known;
+    std::string list;
+    for (const auto& [name, value] : formats) {
+      if (name == format_) {
+        *format = value;
+        return "";
+      }
+      known.push_back(name);
+      list += list.empty() ? name : (&name == &formats.back().first ? " and " : ", ") + name;
+    }
+    return "unknown format '" + format_ + "'" + DidYouMean(format_, known) + "; there are " + list;
+  }
+
   /// --format and --assume.
-  std::string FinishCommon(const CLI::App* command, Format* format,
-                           std::vector<std::string>* assume) const {
-    if (Contains(kLaterFormats, format_)) {
-      return "--format " + format_ + " is not in this version of ncsim; there are text and json";
-    }
-    if (format_ != "text" && format_ != "json") {
-      return "unknown format '" + format_ + "'" + DidYouMean(format_, {"text", "json"}) +
-             "; there are text and json";
-    }
-    *format = format_ == "json" ? Format::kJson : Format::kText;
+  std::string FinishCommon(const CLI::App* command,
+                           const std::vector<std::pair<std::string, Format>>& formats,
+                           Format* format, std::vector<std::string>* assume) const {
+    if (const std::string error = ReadFormat(formats, format); !error.empty()) return error;
     *assume = SplitNames(assume_);
     if (command->count("--assume") > 0 && assume->empty()) return "--assume needs a name, or all";
+    return "";
+  }
+
+  static std::string ReadUnit(const std::string& name, const std::string& text,
+                              std::optional<post::ClUnit>* unit) {
+    if (text.empty()) return "";
+    if (text != "mm" && text != "inch") return name + " takes mm or inch";
+    *unit = text == "mm" ? post::ClUnit::kMillimetre : post::ClUnit::kInch;
+    return "";
+  }
+
+  std::string FinishClInput(ClInput* cl) const {
+    if (!cl_system_.empty()) {
+      std::vector<std::string> known;
+      for (const auto flavour : {post::ClFlavour::kNx, post::ClFlavour::kCreo,
+                                 post::ClFlavour::kSolidWorksCam, post::ClFlavour::kApt}) {
+        known.emplace_back(ToString(flavour));
+        if (known.back() == cl_system_) cl->flavour = flavour;
+      }
+      if (!cl->flavour) {
+        return "--cl-system takes nx, creo, solidworks or apt" + DidYouMean(cl_system_, known);
+      }
+    }
+    return ReadUnit("--cl-unit", cl_unit_, &cl->unit);
+  }
+
+  /// NAME=TEXT
+  std::string FinishConstants(std::map<std::string, std::string>* constants) const {
+    for (const std::string& constant : constants_) {
+      const std::size_t sign = constant.find('=');
+      if (sign == std::string::npos || sign == 0) return "--set takes NAME=TEXT";
+      (*constants)[constant.substr(0, sign)] = constant.substr(sign + 1);
+    }
+    return "";
+  }
+
+  std::string FinishPost() {
+    command_.kind = Command::Kind::kPost;
+    PostCommandOptions& o = command_.post;
+    o.assume = SplitNames(assume_);
+    o.check = !no_check_;
+    for (const std::string& error : {FinishClInput(&o.cl), FinishConstants(&o.constants),
+                                     ReadUnit("--unit", unit_, &o.unit)}) {
+      if (!error.empty()) return error;
+    }
+    if (post_->count("--number") > 0) {
+      if (number_ < 1 || number_ > 99999) return "--number takes a number from 1 to 99999";
+      o.number = number_;
+    }
+    if (post_->count("--first-tool") > 0) {
+      if (first_tool_ < 1) return "--first-tool takes a number from 1";
+      o.first_tool = first_tool_;
+    }
+    if (post_->count("--tolerance") > 0) {
+      if (!(tolerance_ > 0.0) || !std::isfinite(tolerance_)) {
+        return "--tolerance takes a distance in mm above 0";
+      }
+      o.tolerance = tolerance_;
+    }
+    if (o.cl_file.empty()) {
+      return "post needs a CL file: ncsim post part.cls --model umc750.urdf -o part.nc";
+    }
+    if (o.file_for_operation && o.out.empty()) return "--split needs --out: the files go beside it";
     return "";
   }
 
   std::string FinishCompare() {
     command_.kind = Command::Kind::kCompare;
     CompareOptions& o = command_.compare;
-    if (const std::string error = FinishCommon(compare_, &o.format, &o.assume); !error.empty()) {
+    if (const std::string error = FinishCommon(compare_, kCompareFormats, &o.format, &o.assume);
+        !error.empty()) {
       return error;
     }
+    if (const std::string error = FinishClInput(&o.cl); !error.empty()) return error;
     const auto positive = [&](const char* name, double value, std::optional<double>* option) {
       if (compare_->count(name) == 0) return true;
       *option = value;
@@ -240,7 +377,8 @@ class CommandLine {
   std::string FinishCheck() {
     command_.kind = Command::Kind::kCheck;
     CheckOptions& o = command_.check;
-    if (const std::string error = FinishCommon(check_, &o.format, &o.assume); !error.empty()) {
+    if (const std::string error = FinishCommon(check_, kCheckFormats, &o.format, &o.assume);
+        !error.empty()) {
       return error;
     }
     if (check_->count("--clearance") > 0) {
@@ -260,6 +398,7 @@ class CommandLine {
 
   CLI::App app_{kDescription, "ncsim"};
   CLI::App* check_ = nullptr;
+  CLI::App* post_ = nullptr;
   CLI::App* compare_ = nullptr;
   CLI::App* inspect_ = nullptr;
   CLI::App* explain_ = nullptr;
@@ -268,6 +407,10 @@ class CommandLine {
   double clearance_ = 0.0;
   double tolerance_ = 0.0, angle_tolerance_ = 0.0;
   std::string format_ = "text";
+  std::vector<std::string> constants_;
+  std::string unit_, cl_unit_, cl_system_;
+  int number_ = 0, first_tool_ = 0;
+  bool no_check_ = false;
 };
 
 Command UsageError(const std::string& message, std::ostream& err) {

@@ -2,14 +2,23 @@
 // The command line, read. CLI11 stays behind this header.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "post/cl_flavour.h"
+
 namespace ncsim::app {
 
-enum class Format { kText, kJson };
+enum class Format { kText, kJson, kSarif, kJunit, kGithub };
+
+/// How a cutter-location file is to be read where it does not say.
+struct ClInput {
+  std::optional<post::ClUnit> unit;
+  std::optional<post::ClFlavour> flavour;
+};
 
 struct CheckOptions {
   std::vector<std::string> programs;
@@ -38,14 +47,35 @@ struct CompareOptions {
   bool strict = false;
   Format format = Format::kText;
   std::string out;  ///< Report file; "" for standard output.
+  ClInput cl;
+};
+
+struct PostCommandOptions {
+  std::string cl_file;
+  std::string model;  ///< "" where the job says.
+  std::string post;   ///< "" for MODEL.post.toml beside the model.
+  std::string mode;   ///< "" for what each operation needs.
+  std::string job;    ///< "" for the program's own or the file's, if one exists.
+  std::string out;    ///< The program; "" for standard output.
+  std::map<std::string, std::string> constants;
+  std::optional<int> number;         ///< O number; none: of `out`'s name, else 1.
+  std::optional<post::ClUnit> unit;  ///< Of the program; none: as the post says.
+  std::optional<double> tolerance;   ///< mm
+  std::optional<int> first_tool;     ///< In the spindle where the file loads none.
+  ClInput cl;
+  bool file_for_operation = false;
+  bool check = true;
+  std::vector<std::string> assume;  ///< As CheckOptions.
+  bool strict = false;
 };
 
 struct Command {
-  enum class Kind { kCheck, kCompare, kInspect, kExplain, kDone };
+  enum class Kind { kCheck, kPost, kCompare, kInspect, kExplain, kDone };
   Kind kind = Kind::kDone;
   int exit_code = 0;  ///< kDone: help or a usage error has been written.
   CheckOptions check;
   CompareOptions compare;
+  PostCommandOptions post;
   std::string model;  ///< kInspect.
   std::string rule;   ///< kExplain; "" for all.
 };

@@ -77,18 +77,60 @@ TEST_F(OptionsTest, MistypedNamesGetASuggestion) {
   EXPECT_EQ(Error({"check", "a.nc", "--modle", "x.urdf"}),
             "ncsim: unknown option '--modle' (did you mean '--model'?)\n");
   EXPECT_EQ(Error({"chekc", "a.nc"}), "ncsim: unknown command 'chekc' (did you mean 'check'?)\n");
-  EXPECT_EQ(Error({"check", "a.nc", "--format", "jsno"}),
-            "ncsim: unknown format 'jsno' (did you mean 'json'?); there are text and json\n");
+  EXPECT_EQ(
+      Error({"check", "a.nc", "--format", "jsno"}),
+      "ncsim: unknown format 'jsno' (did you mean 'json'?); there are text, json, sarif, junit "
+      "and github\n");
+  EXPECT_EQ(Error({"compare", "a.nc", "b.nc", "--format", "sarif"}),
+            "ncsim: unknown format 'sarif'; there are text and json\n");
   EXPECT_EQ(Error({"check", "a.nc", "--zzzzzzzzzz"}), "ncsim: unknown option '--zzzzzzzzzz'\n");
   EXPECT_EQ(Error({"inspect", "a.urdf", "b.urdf"}), "ncsim: unexpected argument 'b.urdf'\n");
 }
 
-TEST_F(OptionsTest, LaterCommandsAndFormatsAreRefusedByName) {
-  EXPECT_EQ(Error({"post", "a.cls"}), "ncsim: 'post' is not in this version of ncsim\n");
+TEST_F(OptionsTest, EverythingThatPostTakes) {
+  const Command command =
+      Parse({"post",      "a.cls",      "--model",     "umc750.urdf", "--mode",       "tcp",
+             "--job",     "j.toml",     "-o",          "a.nc",        "--post",       "p.toml",
+             "--set",     "offset=G55", "--set",       "text=a=b",    "--number",     "7",
+             "--unit",    "inch",       "--tolerance", "0.01",        "--first-tool", "3",
+             "--cl-unit", "mm",         "--cl-system", "creo",        "--split",      "--no-check",
+             "--assume",  "all",        "--strict"});
+  ASSERT_EQ(command.kind, Command::Kind::kPost) << err_.str();
+  const PostCommandOptions& post = command.post;
+  EXPECT_EQ(post.cl_file, "a.cls");
+  EXPECT_EQ(post.model, "umc750.urdf");
+  EXPECT_EQ(post.mode, "tcp");
+  EXPECT_EQ(post.job, "j.toml");
+  EXPECT_EQ(post.out, "a.nc");
+  EXPECT_EQ(post.post, "p.toml");
+  EXPECT_THAT(post.constants, ElementsAre(std::pair("offset", "G55"), std::pair("text", "a=b")));
+  EXPECT_EQ(post.number, 7);
+  EXPECT_EQ(post.unit, post::ClUnit::kInch);
+  EXPECT_EQ(post.tolerance, 0.01);
+  EXPECT_EQ(post.first_tool, 3);
+  EXPECT_EQ(post.cl.unit, post::ClUnit::kMillimetre);
+  EXPECT_EQ(post.cl.flavour, post::ClFlavour::kCreo);
+  EXPECT_TRUE(post.file_for_operation);
+  EXPECT_FALSE(post.check);
+  EXPECT_THAT(post.assume, ElementsAre("all"));
+  EXPECT_TRUE(post.strict);
+}
+
+TEST_F(OptionsTest, BadUsageOfPost) {
+  EXPECT_THAT(Error({"post"}), HasSubstr("post needs a CL file"));
+  EXPECT_THAT(Error({"post", "a.cls", "--unit", "cm"}), HasSubstr("--unit takes mm or inch"));
+  EXPECT_THAT(Error({"post", "a.cls", "--cl-unit", "cm"}), HasSubstr("--cl-unit takes mm or inch"));
+  EXPECT_THAT(Error({"post", "a.cls", "--cl-system", "creao"}), HasSubstr("did you mean 'creo'"));
+  EXPECT_THAT(Error({"post", "a.cls", "--set", "offset"}), HasSubstr("--set takes NAME=TEXT"));
+  EXPECT_THAT(Error({"post", "a.cls", "--number", "0"}), HasSubstr("--number takes"));
+  EXPECT_THAT(Error({"post", "a.cls", "--first-tool", "0"}), HasSubstr("--first-tool takes"));
+  EXPECT_THAT(Error({"post", "a.cls", "--tolerance", "0"}), HasSubstr("--tolerance takes"));
+  EXPECT_THAT(Error({"post", "a.cls", "--split"}), HasSubstr("--split needs --out"));
+}
+
+TEST_F(OptionsTest, LaterCommandsAreRefusedByName) {
   EXPECT_EQ(Error({"nightly", "a"}), "ncsim: 'nightly' is not in this version of ncsim\n");
   EXPECT_EQ(Error({"nightly", "d", "--all"}), "ncsim: 'nightly' is not in this version of ncsim\n");
-  EXPECT_EQ(Error({"check", "a.nc", "--format", "sarif"}),
-            "ncsim: --format sarif is not in this version of ncsim; there are text and json\n");
 }
 
 TEST_F(OptionsTest, BadUsage) {

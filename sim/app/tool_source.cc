@@ -22,15 +22,27 @@ namespace {
 /// No magazine holds more; a larger number is a mistake that the control reports.
 constexpr double kMaxToolNumber = 999.0;
 
-/// T numbers that stand in the blocks of a SINUMERIK program: `T5`, `T=5`.
-std::set<int> SinumerikToolNumbers(const nc::Program& program) {
-  std::set<int> numbers;
+/// What the blocks of a SINUMERIK program say.
+struct SinumerikTools {
+  std::set<int> numbers;  ///< `T5`, `T=5`.
+  double unit = 0.0;      ///< mm, by the first of G70, G71, G700, G710; 0 without one.
+};
+
+double UnitOf(const nc::SinumerikPart& part) {
+  if (part.letter != 'G' || part.kind != nc::SinumerikPartKind::kWord) return 0.0;
+  if (part.value == 70.0 || part.value == 700.0) return kMmPerInch;
+  return part.value == 71.0 || part.value == 710.0 ? 1.0 : 0.0;
+}
+
+SinumerikTools FindSinumerikTools(const nc::Program& program) {
+  SinumerikTools tools;
   nc::SinumerikBlock block;
   int line = 1;
   for (std::size_t at = program.begin(); at < program.text().size(); ++line) {
     nc::ParseSinumerikBlock(program, at, line, &block);
     at = block.next;
     for (const nc::SinumerikPart& part : block.parts) {
+      if (tools.unit == 0.0) tools.unit = UnitOf(part);
       if (part.letter != 'T') continue;
       double value = part.value;
       if (part.kind == nc::SinumerikPartKind::kAssign) {
@@ -39,10 +51,10 @@ std::set<int> SinumerikToolNumbers(const nc::Program& program) {
         value = number ? block.code[first].number : 0.0;
       }
       const bool whole = value >= 1.0 && value <= kMaxToolNumber && value == std::floor(value);
-      if (whole) numbers.insert(static_cast<int>(value));
+      if (whole) tools.numbers.insert(static_cast<int>(value));
     }
   }
-  return numbers;
+  return tools;
 }
 
 /// T numbers that stand in the blocks.
@@ -82,17 +94,21 @@ machine::ToolTable FindTools(const machine::Machine& machine, const machine::Job
     for (machine::Tool& tool : table.tools) machine::ChangeAssumedHolder(interface, &tool);
     return table;
   }
-  const double unit = ProgramUnit(machine, job, program);
+  const bool sinumerik = machine.control.dialect == control::kSinumerik840d;
+  const SinumerikTools called = sinumerik ? FindSinumerikTools(program) : SinumerikTools();
+  const double unit = !sinumerik           ? ProgramUnit(machine, job, program)
+                      : called.unit == 0.0 ? 1.0
+                                           : called.unit;
   std::map<int, machine::Tool> tools;
-  for (const nc::HeaderTool& header : nc::ReadHeaderTools(program)) {
+  for (const nc::HeaderTool& header :
+       sinumerik ? nc::ReadSinumerikHeaderTools(program) : nc::ReadHeaderTools(program)) {
     machine::Tool tool = machine::AssumeTool(header.number, header.name, unit * header.diameter,
                                              unit * header.corner_radius, 0.0, interface);
     tool.assumed +=
         " (diameter from the program's comment at line " + std::to_string(header.line) + ")";
     tools.emplace(header.number, std::move(tool));
   }
-  const bool sinumerik = machine.control.dialect == control::kSinumerik840d;
-  for (const int number : sinumerik ? SinumerikToolNumbers(program) : ToolNumbers(program)) {
+  for (const int number : sinumerik ? called.numbers : ToolNumbers(program)) {
     if (tools.count(number) == 0) {
       tools.emplace(number, machine::AssumeTool(number, "", 0.0, 0.0, 0.0, interface));
     }

@@ -117,9 +117,15 @@ bool SinumerikInterpreter::SolveSwivel(const SinumerikCycleArguments& arguments,
                  "to the tool");
   }
   const long direction = arguments.Whole("_DIR");
-  const auto chosen = direction == 0
-                          ? StandingSwivel(solutions, here, where)
-                          : TurnedSwivel(std::move(solutions), here, *plane, direction, where);
+  std::optional<kinematics::RotarySolution> chosen;
+  if (direction == 0) {
+    chosen = StandingSwivel(solutions, here, where);
+  } else if (direct && solutions.front().at_pole) {
+    chosen = asked;
+    chosen->angles[1] = here[1] + std::remainder(asked.angles[1] - here[1], 2.0 * kPi);
+  } else {
+    chosen = TurnedSwivel(std::move(solutions), here, *plane, arguments, where);
+  }
   if (!chosen) return false;
   for (std::size_t i = 0; i < rotary.size(); ++i) (*joints)[rotary[i]] = chosen->angles.at(i);
   return true;
@@ -143,12 +149,14 @@ std::optional<kinematics::RotarySolution> SinumerikInterpreter::StandingSwivel(
 
 std::optional<kinematics::RotarySolution> SinumerikInterpreter::TurnedSwivel(
     std::vector<kinematics::RotarySolution> solutions, const std::array<double, 2>& here,
-    const SwivelPlane& plane, long direction, const SourcePosition& where) {
+    const SwivelPlane& plane, const SinumerikCycleArguments& arguments,
+    const SourcePosition& where) {
   const int reference = settings_.swivel_reference;
   if (solutions.front().at_pole)
-    return PoleSwivel(solutions.front(), here, plane, direction, where);
-  if (solutions.size() > 1 && reference == 0) {
-    log_.Assume("swivel direction", "_DIR of CYCLE800 refers to the first rotary axis", true);
+    return PoleSwivel(solutions.front(), here, plane, arguments, where);
+  if (solutions.size() > 1) {
+    AssumeOfSwivel(kSwivelReference, reference != 0, "swivel direction",
+                   "_DIR of CYCLE800 refers to the first rotary axis");
   }
   const int index = reference == 2 ? 1 : 0;
   const int joint = parts_.frames->five_axis().rotary()[static_cast<std::size_t>(index)];
@@ -157,13 +165,23 @@ std::optional<kinematics::RotarySolution> SinumerikInterpreter::TurnedSwivel(
     if (axes_.joint(i) == joint)
       endless = settings_.rotary[static_cast<std::size_t>(i - kA)].modulo;
   }
-  return ChooseSwivel(solutions, direction, index, endless);
+  return ChooseSwivel(solutions, arguments.Whole("_DIR"), index, endless);
+}
+
+/// What the run owes to `setting`: the model's nominal value of it or, where nobody states one,
+/// `instead`, which keeps the verdict from being pass.
+void SinumerikInterpreter::AssumeOfSwivel(std::string_view setting, bool stated,
+                                          std::string_view name, std::string_view instead) {
+  if (!stated) return log_.Assume(name, std::string(instead), true);
+  const auto nominal = settings_.swivel_nominal.find(std::string(setting));
+  if (nominal != settings_.swivel_nominal.end()) log_.Assume(setting, nominal->second, false);
 }
 
 /// With the normal along the last rotary axis, that axis takes over the turn within the plane.
 std::optional<kinematics::RotarySolution> SinumerikInterpreter::PoleSwivel(
     kinematics::RotarySolution solution, const std::array<double, 2>& here,
-    const SwivelPlane& plane, long direction, const SourcePosition& where) {
+    const SwivelPlane& plane, const SinumerikCycleArguments& arguments,
+    const SourcePosition& where) {
   const unsigned mask = settings_.swivel_mask.value_or(0);
   const auto residual = [&](double angle) {
     JointVector joints = axes_.Joints(AxisValues{});
@@ -180,13 +198,19 @@ std::optional<kinematics::RotarySolution> SinumerikInterpreter::PoleSwivel(
     Unsupported("CYCLE800 about the tool with SD55221 bit 4 = 1", where);
     return std::nullopt;
   }
-  if ((mask & kPoleBySign) != 0 && direction < 0) angle += kPi;
-  if ((mask & (kPoleBySign | kOneSolution)) == 0) {
-    log_.Assume("swivel at the pole",
-                "where the plane's normal is the axis of the last table, CYCLE800 turns that table "
-                "by the plane's turn in itself, and not by 180 deg more (SD55221 bits 7 and 13)",
-                true);
+  if ((mask & kPoleBySign) != 0 && arguments.Whole("_DIR") < 0) {
+    angle += kPi;
+    if (!IsAxisByAxisSwivel(arguments)) {
+      log_.Assume("swivel at the pole by another mode",
+                  "with SD55221 bit 13, which is stated for turns axis by axis, CYCLE800 turns the "
+                  "last table 180 degrees more with _DIR = -1 for a solid angle too",
+                  true);
+    }
   }
+  AssumeOfSwivel(kSwivelMask, (mask & (kPoleBySign | kOneSolution)) != 0, "swivel at the pole",
+                 "where the plane's normal is the axis of the last table, CYCLE800 turns that "
+                 "table by the plane's turn in itself, and not by 180 deg more (SD55221 bits 7 and "
+                 "13)");
   solution.angles[1] = angle + 2.0 * kPi * std::round((here[1] - angle) / (2.0 * kPi));
   return solution;
 }
@@ -211,9 +235,10 @@ bool SinumerikInterpreter::RetractToSwivel(const SinumerikCycleArguments& argume
     for (const int axis : {kX, kY, kZ}) {
       const auto& stated = settings_.swivel_retract[static_cast<std::size_t>(axis)];
       target[static_cast<std::size_t>(axis)] = stated.value_or(axes_.data(axis).home);
-      if (stated || (way == 1 && axis != kZ)) continue;
-      log_.Assume("swivel retraction",
-                  "CYCLE800 retracts to the model's home position ($TC_CARR38 to 40)", true);
+      if (way == 1 && axis != kZ) continue;
+      AssumeOfSwivel(kSwivelRetract.at(static_cast<std::size_t>(axis)), stated.has_value(),
+                     "swivel retraction",
+                     "CYCLE800 retracts to the model's home position ($TC_CARR38 to 40)");
     }
   } else {
     return Alarm(where, 61183, "_FR is none of 0, 1, 2, 4 and 5");

@@ -44,6 +44,27 @@ Eigen::Matrix3d SinumerikRotation(const std::array<double, 3>& angles) {
       .toRotationMatrix();
 }
 
+std::optional<Eigen::Matrix3d> SolidAngleRotation(const std::array<double, 3>& angles,
+                                                  const std::array<bool, 3>& given) {
+  for (int third = 0; third < 3; ++third) {
+    const int first = (third + 1) % 3, second = (third + 2) % 3;
+    const auto at = [](int axis) { return static_cast<std::size_t>(axis); };
+    if (given[at(third)] || !given[at(first)] || !given[at(second)]) continue;
+    if (std::max(std::abs(angles[at(first)]), std::abs(angles[at(second)])) >= 0.5 * kPi) break;
+    using Eigen::Vector3d;
+    const Vector3d in_first =
+        Eigen::AngleAxisd(angles[at(second)], Vector3d::Unit(second)) * Vector3d::Unit(first);
+    const Vector3d in_second =
+        Eigen::AngleAxisd(angles[at(first)], Vector3d::Unit(first)) * Vector3d::Unit(second);
+    Eigen::Matrix3d rotation;
+    rotation.col(first) = in_first;
+    rotation.col(third) = in_first.cross(in_second).normalized();
+    rotation.col(second) = rotation.col(third).cross(in_first);
+    return rotation;
+  }
+  return std::nullopt;
+}
+
 AxisValues SettableFrame::shift() const {
   AxisValues sum = coarse;
   for (std::size_t i = 0; i < kNumAxes; ++i) sum[i] += fine[i];
@@ -66,7 +87,10 @@ bool AffineFrame::is_zero() const {
 
 AffineFrame ToAffine(const SettableFrame& frame) {
   const AxisValues shift = frame.shift();
-  return {frame.Linear(), {shift[kX], shift[kY], shift[kZ]}, {shift[kA], shift[kB], shift[kC]}};
+  return {frame.Linear(),
+          {shift[kX], shift[kY], shift[kZ]},
+          {shift[kA], shift[kB], shift[kC]},
+          frame.fine};
 }
 
 AffineFrame Chained(const AffineFrame& outer, const AffineFrame& inner) {
@@ -74,14 +98,16 @@ AffineFrame Chained(const AffineFrame& outer, const AffineFrame& inner) {
   chained.linear = outer.linear * inner.linear;
   chained.shift = outer.shift + outer.linear * inner.shift;
   for (std::size_t i = 0; i < 3; ++i) chained.rotary[i] = outer.rotary[i] + inner.rotary[i];
+  chained.fine = outer.fine;
   return chained;
 }
 
 std::optional<SettableFrame> ToSettable(const AffineFrame& frame) {
   SettableFrame settable;
+  settable.fine = frame.fine;
   for (std::size_t i = 0; i < 3; ++i) {
-    settable.coarse[i] = frame.shift[static_cast<int>(i)];
-    settable.coarse[i + kA] = frame.rotary[i];
+    settable.coarse[i] = frame.shift[static_cast<int>(i)] - frame.fine[i];
+    settable.coarse[i + kA] = frame.rotary[i] - frame.fine[i + kA];
     settable.scale[i] = frame.linear.col(static_cast<int>(i)).norm();
   }
   const Eigen::Matrix3d turn = frame.linear.colwise().normalized();
@@ -121,7 +147,8 @@ std::optional<AffineFrame> ToAffine(const nc::SinumerikValue& frame, double unit
   for (const nc::SinumerikFrame::Part& part : frame.frame->chain) {
     const std::optional<SettableFrame> settable = PartOf(part, unit);
     if (!settable) return std::nullopt;
-    whole = Chained(whole, ToAffine(*settable));
+    whole =
+        frame.frame->chain.size() == 1 ? ToAffine(*settable) : Chained(whole, ToAffine(*settable));
   }
   return whole;
 }

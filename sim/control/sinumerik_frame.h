@@ -17,6 +17,13 @@ namespace ncsim::control {
 /// 1). With one angle there is no order.
 Eigen::Matrix3d SinumerikRotation(const std::array<double, 3>& angles);
 
+/// The rotation of ROTS and of CYCLE800 by projection angles: angles (rad) about X, Y, Z, of which
+/// two are `given`. Each turns the other of the two axes into the line in which the oblique plane
+/// cuts that axis' plane with the third; the first of the two (in the order of G17, G18, G19) then
+/// lies in that line (K2 08/2005, p. 2-101). nullopt: not two, or one of 90 degrees or more.
+std::optional<Eigen::Matrix3d> SolidAngleRotation(const std::array<double, 3>& angles,
+                                                  const std::array<bool, 3>& given);
+
 /// A settable frame: an axis is shifted (coarse and fine), then turned, scaled, mirrored.
 struct SettableFrame {
   AxisValues coarse{};
@@ -36,6 +43,7 @@ struct AffineFrame {
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   std::array<double, 3> rotary{};
+  AxisValues fine{};  ///< How much of `shift` and `rotary` ATRANS and G59 have made (MD24000).
   bool is_zero() const;
 };
 

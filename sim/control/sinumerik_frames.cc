@@ -2,6 +2,7 @@
 // Settable and programmable frames, TRAORI and TRAFOOF: all that makes the frame of a command (NC
 // programming 12/2019, "Coordinate transformations (frames)").
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -171,12 +172,18 @@ void SinumerikInterpreter::TurnToTool() {
 /// TRANS, ROT, SCALE, MIRROR delete what was programmed before; the A forms add to it.
 void SinumerikInterpreter::ExecuteFrameStatement(const SinumerikItem& item) {
   std::string_view name = item.command->name;
-  if (name[0] == 'G') return SetPole(name);
+  const bool replaces = name == "G58" || name == "G59";
+  if (name[0] == 'G' && !replaces) return SetPole(name);
   const bool adds = name[0] == 'A';
   if (adds) name.remove_prefix(1);
-  if (!adds) modal_.program = {};
-  if (name == "TRANS") Translate();
+  if (!adds && !replaces) {
+    if (name == "TRANS") CheckFine(Where(item));
+    modal_.program = {};
+  }
+  if (name == "TRANS") Translate(adds);
+  if (replaces) ReplaceShift(name == "G59", Where(item));
   if (name == "ROT") Rotate(Where(item));
+  if (name == "ROTS") RotateBySolidAngles(Where(item));
   if (name == "SCALE") Scale();
   if (name == "MIRROR") Mirror();
   if (log_.stopped()) return;
@@ -184,7 +191,49 @@ void SinumerikInterpreter::ExecuteFrameStatement(const SinumerikItem& item) {
   RefreshFrame();
 }
 
-void SinumerikInterpreter::Translate() {
+/// TRANS X..: where the control keeps fine shifts apart, does it leave them?
+void SinumerikInterpreter::CheckFine(const SourcePosition& where) {
+  if (modal_.program.fine == AxisValues{}) return;
+  bool named = false;
+  for (std::size_t i = 0; i < kNumAxes; ++i) named |= Peek(kLetters.substr(i, 1)) != nullptr;
+  if (!named) return;
+  fine_dropped_ = true;
+  if (replaces_shift_ || settings_.fine_shift == true) {
+    Unsupported("TRANS behind ATRANS or G59 with MD24000 = 1", where,
+                "whether it deletes their shift is not clear; TRANS alone does");
+  }
+}
+
+/// G58 replaces what TRANS has shifted the named axes by, G59 what ATRANS has.
+void SinumerikInterpreter::ReplaceShift(bool fine, const SourcePosition& where) {
+  if (settings_.fine_shift == false) {
+    return Unsupported("G58 or G59 with MD24000 = 0", where, "the control does not have it then");
+  }
+  if (!settings_.fine_shift) {
+    log_.Assume("MD24000", "1: the control has G58 and G59, and keeps the shift of ATRANS apart",
+                false);
+  }
+  if (fine_dropped_) {
+    Unsupported("G58 or G59 behind TRANS behind ATRANS", where,
+                "whether TRANS has deleted the shift of ATRANS is not clear");
+  }
+  replaces_shift_ = true;
+  AffineFrame& program = modal_.program;
+  for (std::size_t i = 0; i < kNumAxes; ++i) {
+    const std::string_view letter = kLetters.substr(i, 1);
+    if (Peek(letter) == nullptr || !axes_.has(static_cast<int>(i))) continue;
+    const SinumerikItem* word = Take(letter);
+    if (word == nullptr) return;
+    const double value = i < kA ? word->value * mm_ : Radians(word->value);
+    double& whole = i < kA ? program.shift[static_cast<int>(i)] : program.rotary[i - kA];
+    const double coarse = fine ? whole - program.fine[i] : value;
+    if (fine) program.fine[i] = value;
+    whole = coarse + program.fine[i];
+  }
+}
+
+void SinumerikInterpreter::Translate(bool adds) {
+  const AffineFrame before = modal_.program;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < kNumAxes; ++i) {
     const std::string_view letter = kLetters.substr(i, 1);
@@ -198,6 +247,31 @@ void SinumerikInterpreter::Translate() {
     }
   }
   modal_.program.shift += modal_.program.linear * shift;
+  if (!adds || settings_.fine_shift == false) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int axis = static_cast<int>(i);
+    modal_.program.fine[i] += modal_.program.shift[axis] - before.shift[axis];
+    modal_.program.fine[i + kA] += modal_.program.rotary[i] - before.rotary[i];
+  }
+}
+
+/// ROTS X Y, Z X or Y Z: an oblique plane by the lines in which it cuts the planes; one angle alone
+/// is that of ROT.
+void SinumerikInterpreter::RotateBySolidAngles(const SourcePosition& where) {
+  std::array<double, 3> angles{};
+  std::array<bool, 3> given{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    given[i] = Peek(kLetters.substr(i, 1)) != nullptr;
+    if (!given[i]) continue;
+    const SinumerikItem* word = Take(kLetters.substr(i, 1));
+    if (word == nullptr) return;
+    angles[i] = Radians(word->value);
+  }
+  const auto count = std::count(given.begin(), given.end(), true);
+  const std::optional<Eigen::Matrix3d> turn =
+      count < 2 ? SinumerikRotation(angles) : SolidAngleRotation(angles, given);
+  if (!turn) return Unsupported("ROTS with three angles, or one of 90 degrees or more", where);
+  modal_.program.linear = modal_.program.linear * *turn;
 }
 
 void SinumerikInterpreter::Rotate(const SourcePosition& where) {

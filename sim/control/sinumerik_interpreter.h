@@ -48,6 +48,7 @@ enum SinumerikGroup {
   kSinUnits = 13,
   kSinDistance = 14,
   kSinFeedMode = 15,
+  kSinBottleneck = 23,
   kSinOrientationSystem = 25,
   kSinCompressor = 30,
   kSinOrientationAngles = 50,
@@ -136,6 +137,7 @@ class SinumerikInterpreter {
   };
 
   // sinumerik_interpreter.cc: blocks and modal state
+  void ResolveAxisWords();
   void ApplyCodes();
   void ApplyCode(SinumerikItem* item);
   void UpdateModes();
@@ -164,8 +166,11 @@ class SinumerikInterpreter {
   void TurnToTool();
   void UseFrame(const Frame& frame);
   void ExecuteFrameStatement(const SinumerikItem& item);
-  void Translate();
+  void CheckFine(const SourcePosition& where);
+  void ReplaceShift(bool fine, const SourcePosition& where);
+  void Translate(bool adds);
   void Rotate(const SourcePosition& where);
+  void RotateBySolidAngles(const SourcePosition& where);
   void Scale();
   void Mirror();
   void SetPole(std::string_view name);
@@ -186,6 +191,7 @@ class SinumerikInterpreter {
   void MachinePoint(const SinumerikItem& item);
   void ExecuteMotion();
   void PositionAxis();
+  void WaitForAxes(std::span<const nc::SinumerikValue> axes);
   bool TakeTargets(AxisValues* end, unsigned* named);
   bool LinearTarget(int axis, const SinumerikItem& item, double* value);
   bool RotaryTarget(int axis, const SinumerikItem& item, double* value);
@@ -204,7 +210,10 @@ class SinumerikInterpreter {
 
   // sinumerik_orientation.cc
   bool TakeOrientation(AxisValues* end, unsigned* named);
+  std::optional<Eigen::Vector3d> TakeTriple(char digit);
   std::optional<Eigen::Vector3d> TakeToolAxis();
+  void TakeSurfaceNormal();
+  std::optional<Eigen::Vector3d> TakeLeaning(const AxisValues& end);
   bool Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named);
   bool WithinLimits(const Eigen::Vector3d& u_B, const std::array<double, 2>& from, bool led,
                     std::array<double, 2>* reached);
@@ -226,10 +235,14 @@ class SinumerikInterpreter {
       const SourcePosition& where);
   std::optional<kinematics::RotarySolution> TurnedSwivel(
       std::vector<kinematics::RotarySolution> solutions, const std::array<double, 2>& here,
-      const SwivelPlane& plane, long direction, const SourcePosition& where);
+      const SwivelPlane& plane, const SinumerikCycleArguments& arguments,
+      const SourcePosition& where);
+  void AssumeOfSwivel(std::string_view setting, bool stated, std::string_view name,
+                      std::string_view instead);
   std::optional<kinematics::RotarySolution> PoleSwivel(kinematics::RotarySolution solution,
                                                        const std::array<double, 2>& here,
-                                                       const SwivelPlane& plane, long direction,
+                                                       const SwivelPlane& plane,
+                                                       const SinumerikCycleArguments& arguments,
                                                        const SourcePosition& where);
   bool RetractToSwivel(const SinumerikCycleArguments& arguments, const SourcePosition& where);
   void TurnTables(const AxisValues& target, bool tracks);
@@ -265,17 +278,22 @@ class SinumerikInterpreter {
 
   std::shared_ptr<const Frame> frame_;
   bool frame_dirty_ = false;
-  bool new_frame_ = false, new_length_ = false;  ///< What made it so.
-  bool tool_frame_due_ = false;                  ///< TOROT stands in the block.
+  bool new_frame_ = false, new_length_ = false;         ///< What made it so.
+  bool tool_frame_due_ = false;                         ///< TOROT stands in the block.
+  bool replaces_shift_ = false, fine_dropped_ = false;  ///< G58, G59; TRANS behind ATRANS.
   bool traori_ = false;
   std::string
       cancelled_;  ///< The frame that TRAORI or TRAFOOF cancelled, and nobody selected again.
   AxisValues position_{};  ///< Programmed position, program coordinates of frame_.
   AxisValues carry_{};     ///< What the next incremental move of an axis goes beside its own way.
   std::array<bool, kNumAxes> carry_turned_{};  ///< And the frame has turned since.
+  unsigned under_way_ = 0;                     ///< Bit n: the axis that POSA has sent, till WAITP.
+  double modal_rounding_ = 0.0;                ///< RNDM, mm.
   Eigen::Vector2d pole_ = Eigen::Vector2d::Zero();
-  Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();  ///< At the end of the last motion.
-  Command command_;                                    ///< Carries the modal facts; reused.
+  Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();          ///< At the end of the last motion.
+  Eigen::Vector3d surface_normal_ = Eigen::Vector3d::UnitZ();  ///< A5 B5 C5, or A4 B4 C4.
+  std::array<double, 2> leaning_{};                            ///< LEAD, TILT; rad.
+  Command command_;                                            ///< Carries the modal facts; reused.
 
   double feed_word_ = 0.0, rpm_ = 0.0;
   int spindle_ = 0;

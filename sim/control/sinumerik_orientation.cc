@@ -11,6 +11,7 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/control/sinumerik_interpreter.h"
+#include "sim/control/sinumerik_lead_tilt.h"
 
 namespace ncsim::control {
 namespace {
@@ -44,23 +45,25 @@ std::string_view SinumerikInterpreter::WrapNote() const {
   return traori_ && any && !vector_path() ? kWrapNote : std::string_view();
 }
 
+/// A3 B3 C3 for '3' and so on; what is not programmed is 0.
+std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeTriple(char digit) {
+  std::optional<Eigen::Vector3d> values;
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = {"ABC"[i], digit};
+    if (Peek(name) == nullptr) continue;
+    const SinumerikItem* item = Take(name);
+    if (item == nullptr) return std::nullopt;
+    if (!values) values = Eigen::Vector3d::Zero();
+    (*values)[i] = item->value;
+  }
+  return values;
+}
+
 /// The tool axis (tip to holder) of A3 B3 C3 or A2 B2 C2, in program coordinates; not of length 1.
 std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeToolAxis() {
-  const auto take = [this](char digit, Eigen::Vector3d* values) {
-    bool any = false;
-    for (int i = 0; i < 3; ++i) {
-      const std::string name = {"ABC"[i], digit};
-      if (Peek(name) == nullptr) continue;
-      const SinumerikItem* item = Take(name);
-      if (item == nullptr) return false;
-      (*values)[i] = item->value;
-      any = true;
-    }
-    return any;
-  };
-  Eigen::Vector3d values = Eigen::Vector3d::Zero();
-  if (take('3', &values)) return values;
-  if (!take('2', &values)) return std::nullopt;
+  if (const std::optional<Eigen::Vector3d> vector = TakeTriple('3')) return vector;
+  const std::optional<Eigen::Vector3d> angles = TakeTriple('2');
+  if (!angles) return std::nullopt;
   bool euler = settings_.orientation_euler;
   if (settings_.orientation_by_g50) {
     euler = Is(kSinOrientationAngles, "ORIEULER");
@@ -72,7 +75,7 @@ std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeToolAxis() {
   }
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
-  const double a = Radians(values[0]), b = Radians(values[1]), c = Radians(values[2]);
+  const double a = Radians((*angles)[0]), b = Radians((*angles)[1]), c = Radians((*angles)[2]);
   if (euler) {
     return AngleAxisd(a, Vector3d::UnitZ()) * AngleAxisd(b, Vector3d::UnitX()) * Vector3d::UnitZ();
   }
@@ -80,9 +83,70 @@ std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeToolAxis() {
          AngleAxisd(a, Vector3d::UnitX()) * Vector3d::UnitZ();
 }
 
+/// A4 B4 C4 at the start of a block, which its end keeps, or A5 B5 C5 at its end; kept by later
+/// blocks.
+void SinumerikInterpreter::TakeSurfaceNormal() {
+  for (const char digit : {'4', '5'}) {
+    const std::optional<Eigen::Vector3d> normal = TakeTriple(digit);
+    if (normal) surface_normal_ = *normal;
+  }
+}
+
+/// LEAD and TILT: against the surface's normal (Z where none is programmed), along the line to
+/// `end`.
+std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeLeaning(const AxisValues& end) {
+  const Eigen::Vector3d way(end[kX] - position_[kX], end[kY] - position_[kY],
+                            end[kZ] - position_[kZ]);
+  const bool along = Is(kSinOrientationPath, "ORIPATH");
+  std::array<bool, 2> named{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string_view name = i == 0 ? "LEAD" : "TILT";
+    named.at(i) = Peek(name) != nullptr;
+    if (!named.at(i)) continue;
+    const SinumerikItem* item = Take(name);
+    if (item == nullptr) return std::nullopt;
+    leaning_.at(i) = Radians(item->value);
+  }
+  const bool any = named[0] || named[1];
+  const auto unsupported = [this](std::string_view name, const std::string& why = "") {
+    Unsupported(name, step_->where, why);
+    return std::nullopt;
+  };
+  if (!any && (!along || !traori_ || way.isZero(0.0))) return std::nullopt;
+  if ((!named[0] && leaning_[0] != 0.0) || (!named[1] && leaning_[1] != 0.0) || !any) {
+    return unsupported("a block with ORIPATH, LEAD or TILT that does not state both angles",
+                       "whether the ones before stay is not known");
+  }
+  if (!traori_) return unsupported("LEAD or TILT without TRAORI");
+  if (!Is(kSinOrientationSystem, "ORIWKS")) return unsupported("LEAD or TILT with ORIMKS");
+  const bool line = motion_ == MotionMode::kRapid || motion_ == MotionMode::kLine;
+  if (!line || way.isZero(0.0)) {
+    return unsupported("LEAD or TILT in a block that is no line", "it has no path tangent here");
+  }
+  const int order = settings_.leaning_mode / 10 % 10;
+  if (order > static_cast<int>(LeanOrder::kTiltThenLeadAboutTurnedSide) ||
+      (along && settings_.leaning_mode % 10 != 0)) {
+    return unsupported("MD21094 = " + std::to_string(settings_.leaning_mode),
+                       "how LEAD and TILT hold along the path");
+  }
+  constexpr std::string_view kSense = ": the manual draws its sense and does not state it";
+  if (leaning_[0] != 0.0) {
+    log_.Assume("LEAD", "above 0 leans the tool the way it goes" + std::string(kSense), true);
+  }
+  if (leaning_[1] != 0.0) {
+    log_.Assume("TILT", "above 0 turns right-handed about its axis" + std::string(kSense), true);
+  }
+  const auto axis =
+      LeanedAxis(surface_normal_, way, leaning_[0], leaning_[1], static_cast<LeanOrder>(order));
+  if (!axis) return unsupported("LEAD or TILT where the surface's normal is along the path");
+  return axis;
+}
+
 /// Sets the rotary axes of `end` to what an orientation in the block asks for. False: stopped.
 bool SinumerikInterpreter::TakeOrientation(AxisValues* end, unsigned* named) {
-  const std::optional<Eigen::Vector3d> axis = TakeToolAxis();
+  TakeSurfaceNormal();
+  std::optional<Eigen::Vector3d> axis = TakeToolAxis();
+  if (!axis) axis = TakeLeaning(*end);
   if (!axis) return !log_.stopped();
   if (!traori_) {
     Unsupported("an orientation vector without TRAORI", step_->where);

@@ -14,7 +14,7 @@ struct Meaning {
   std::string_view name;
   std::string_view text;
 };
-constexpr std::array<Meaning, 8> kMeanings = {{
+constexpr std::array<Meaning, 13> kMeanings = {{
     {"MD10602", "what TRAORI and TRAFOOF do to the active frame (0: cancelled)"},
     {"MD10760", "whether G53, G153 and SUPA also suppress the tool length (0: no)"},
     {"MD20150[7]", "the work offset at the start"},
@@ -23,6 +23,11 @@ constexpr std::array<Meaning, 8> kMeanings = {{
     {"MD21104", "what leads the orientation (1: ORIAXES or ORIVECT, 0: ORIMKS or ORIWKS)"},
     {"MD21180", "a rotary axis that would leave its limits (0: alarm 10720)"},
     {"MD30455[C]", "how C goes to a position (bit 2 = 0: within 0 to 360, = 1: the shortest way)"},
+    {kSwivelMask, "CYCLE800 at the pole (bit 13: _DIR = -1 turns the last table 180 degrees more)"},
+    {kSwivelReference, "the rotary axis, 1 or 2, whose angle _DIR of CYCLE800 compares"},
+    {kSwivelRetract[0], "the machine value of X where CYCLE800 retracts to"},
+    {kSwivelRetract[1], "the machine value of Y where CYCLE800 retracts to"},
+    {kSwivelRetract[2], "the machine value of Z where CYCLE800 retracts to"},
 }};
 
 std::string MeaningOf(const std::string& name) {
@@ -30,6 +35,11 @@ std::string MeaningOf(const std::string& name) {
     if (meaning.name == name) return ": " + std::string(meaning.text);
   }
   return "";
+}
+
+bool IsOfSwivel(std::string_view name) {
+  return name == kSwivelMask || name == kSwivelReference ||
+         std::find(kSwivelRetract.begin(), kSwivelRetract.end(), name) != kSwivelRetract.end();
 }
 
 int Whole(const SettingSource& source, const std::string& name, int standard) {
@@ -72,6 +82,7 @@ void ReadOrientation(const SettingSource& source, const machine::Machine& machin
   settings->orientation_by_g50 =
       Whole(source, "MD21102", 0) == 1 || Whole(source, "MD21103", 0) == 1;
   settings->orientation_by_g51 = Whole(source, "MD21104", 0) == 1;
+  settings->leaning_mode = Whole(source, "MD21094", 0);
   settings->pole_mode = Whole(source, "MD21108", 0);
   settings->pole_stated = source.Text("MD21108").has_value();
   if (const auto limit = source.Number("MD24540")) settings->pole_limit = Radians(*limit);
@@ -89,7 +100,12 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   SinumerikSettings settings;
   for (const std::string& name : machine.control.nominal_settings) {
     if (job.control.count(name) != 0) continue;
-    log->Assume(name, source.Text(name).value_or("?") + MeaningOf(name), false);
+    const std::string text = source.Text(name).value_or("?") + MeaningOf(name);
+    if (IsOfSwivel(name)) {
+      settings.swivel_nominal[name] = text;
+    } else {
+      log->Assume(name, text, false);
+    }
   }
   constexpr int kGroups = 64;
   for (int group = 1; group <= kGroups; ++group) {
@@ -112,6 +128,7 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.rpy = Whole(source, "MD10600", 1) == 1;
   settings.frame_keeps_translations = frame_mode == 1;
   settings.frame_stays = frame_mode == 2;
+  if (const auto apart = source.Number("MD24000")) settings.fine_shift = *apart == 1.0;
   settings.suppress_length = Whole(source, "MD10760", 0);
   settings.edge_after_change = Whole(source, "MD20270", 1);
   settings.circle_error = source.Number("MD21000").value_or(settings.circle_error);
@@ -121,12 +138,12 @@ SinumerikSettings ReadSinumerikSettings(const SettingSource& source,
   settings.incremental_frame = Whole(source, "SD42440", 1) == 1;
   settings.incremental_tool = Whole(source, "SD42442", 1) == 1;
   settings.length_plane = Whole(source, "SD42940", 0);
-  if (const auto mask = source.Number("SD55221")) {
+  if (const auto mask = source.Number(std::string(kSwivelMask))) {
     settings.swivel_mask = static_cast<unsigned>(std::lround(*mask));
   }
-  settings.swivel_reference = Whole(source, "swivel_reference", 0);
+  settings.swivel_reference = Whole(source, std::string(kSwivelReference), 0);
   for (std::size_t i = 0; i < 3; ++i) {
-    settings.swivel_retract[i] = source.Number("TC_CARR" + std::to_string(38 + i));
+    settings.swivel_retract[i] = source.Number(std::string(kSwivelRetract.at(i)));
   }
   settings.optional_stop = source.Switch("optional_stop").value_or(false);
   if (source.Switch("block_skip").value_or(false)) settings.skip_levels |= 1U;

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sim/base/units.h"
 #include "sim/control/command.h"
@@ -20,6 +21,11 @@ namespace ncsim::control {
 
 inline constexpr int kNumFixedPoints = 4;
 
+/// What CYCLE800 reads, by the names in model and job.
+inline constexpr std::string_view kSwivelMask = "SD55221", kSwivelReference = "swivel_reference";
+inline constexpr std::array<std::string_view, 3> kSwivelRetract = {"TC_CARR38", "TC_CARR39",
+                                                                   "TC_CARR40"};
+
 struct SinumerikSettings {
   /// A, B, C.
   struct RotaryAxis {
@@ -30,6 +36,7 @@ struct SinumerikSettings {
   std::array<RotaryAxis, 3> rotary{};
   std::map<int, std::string> start_codes;  ///< MD20150, by G group.
   bool rpy = true;                         ///< MD10600 = 1.
+  std::optional<bool> fine_shift;          ///< MD24000: ATRANS makes a shift of its own.
   bool frame_keeps_translations = false;   ///< MD10602 = 1.
   bool frame_stays = false;                ///< MD10602 = 2.
   int suppress_length = 0;                 ///< MD10760.
@@ -42,6 +49,7 @@ struct SinumerikSettings {
   int pole_mode = 0;                       ///< MD21108.
   double pole_limit = 2.0 * kPi / 180.0;   ///< MD24540, rad: about the pole, what MD21108 is for.
   bool pole_stated = false;                ///< Whether anybody states MD21108.
+  int leaning_mode = 0;                    ///< MD21094.
   int limit_mode = 0;                      ///< MD21180.
   bool limit_mode_stated = false;          ///< Not only by a nominal model.
   /// SD5544n by the units of CYCLE832's type, where anybody states them: deg for each mm.
@@ -53,6 +61,9 @@ struct SinumerikSettings {
   std::optional<unsigned> swivel_mask;  ///< SD55221.
   int swivel_reference = 0;             ///< Rotary axis that _DIR refers to, 1 or 2; 0: unstated.
   std::array<std::optional<double>, 3> swivel_retract;  ///< $TC_CARR38 to 40: X, Y, Z; mm.
+  /// Of the three above, those that only a nominal model states: assumptions of programs that use
+  /// them, by name.
+  std::map<std::string, std::string> swivel_nominal;
   /// MD30600: machine values of each axis; mm, rad.
   std::array<std::array<std::optional<double>, kNumAxes>, kNumFixedPoints> fixed_points{};
   unsigned skip_levels = 0;  ///< Bit n: `/n` is left out.

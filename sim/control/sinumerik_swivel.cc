@@ -8,6 +8,7 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/control/sinumerik_drilling_words.h"
+#include "sim/control/sinumerik_frame.h"
 
 namespace ncsim::control {
 namespace {
@@ -40,6 +41,10 @@ bool IsDirectSwivel(const SinumerikCycleArguments& arguments) {
   return ModeOf(arguments) == kDirect;
 }
 
+bool IsAxisByAxisSwivel(const SinumerikCycleArguments& arguments) {
+  return ModeOf(arguments) == kAxisByAxis;
+}
+
 std::optional<Eigen::Matrix3d> SwivelRotation(const SinumerikCycleArguments& arguments,
                                               std::string* unsupported) {
   const std::array<double, 3> angles = {Radians(arguments.Number("_A")),
@@ -48,11 +53,19 @@ std::optional<Eigen::Matrix3d> SwivelRotation(const SinumerikCycleArguments& arg
   constexpr int kY = 2, kZ = 3;
   std::array<int, 3> about = {kZ, kY, 0};
   const long mode = ModeOf(arguments);
-  if (mode == kAxisByAxis) {
+  if (mode == kAxisByAxis || mode == kProjection) {
     for (std::size_t i = 0; i < 3; ++i) {
       about.at(i) = static_cast<int>(arguments.Whole("_MODE") >> (2 * i) & 3);
     }
-  } else if (mode != kSolidAngle) {
+  }
+  if (mode == kProjection) {
+    const bool first_x = about[0] == 1 && about[1] == kY;
+    const bool in_xy = (first_x || (about[0] == kY && about[1] == 1)) && about[2] == kZ;
+    const auto plane = SolidAngleRotation(
+        {angles.at(first_x ? 0 : 1), angles.at(first_x ? 1 : 0), 0.0}, {true, true, false});
+    if (in_xy && plane) return *plane * Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitZ());
+  }
+  if (mode == kProjection || mode == kDirect) {
     *unsupported = Value(arguments, "_MODE");
     return std::nullopt;
   }
@@ -97,7 +110,8 @@ std::optional<std::string> UnsupportedSwivel(const SinumerikCycleArguments& argu
   if (direction < -1 || direction > 1) return Value(arguments, "_DIR");
   // A solid angle is of two, a position of the axes of one or two.
   const long mode = ModeOf(arguments);
-  if (mode != kAxisByAxis && arguments.Number("_C") != 0.0) return Value(arguments, "_C");
+  const bool by_two = mode == kSolidAngle || mode == kDirect;
+  if (by_two && arguments.Number("_C") != 0.0) return Value(arguments, "_C");
   if (arguments.Whole("_MODE") < 0 || mode > kDirect) return Value(arguments, "_MODE");
   return std::nullopt;
 }

@@ -30,11 +30,13 @@ SwivelPlane ShiftedPlane(const SinumerikCycleArguments& arguments, const Eigen::
 
 /// The turn of _MODE, _A, _B, _C: axis by axis (bits 7, 6 = 00; bits 1 and 0, 3 and 2, 5 and 4 say
 /// about which axis _A, _B and _C turn, 1 X, 2 Y, 3 Z, each about the axis as the ones before have
-/// left it) or by solid angles (01; about Z, then Y). nullopt: `unsupported` says why.
+/// left it), by solid angles (01; about Z, then Y) or by projection angles (10) about X and Y, in
+/// either order, then about the plane's Z. nullopt: `unsupported` says why.
 std::optional<Eigen::Matrix3d> SwivelRotation(const SinumerikCycleArguments& arguments,
                                               std::string* unsupported);
 /// _MODE bits 7, 6 = 11: _A and _B are positions of the two rotary axes.
 bool IsDirectSwivel(const SinumerikCycleArguments& arguments);
+bool IsAxisByAxisSwivel(const SinumerikCycleArguments& arguments);
 
 /// The one of two solutions that _DIR means: with 1 the greater, with -1 the smaller angle of the
 /// reference axis (0 or 1, in FiveAxis::rotary() order); the only one, whatever _DIR says. Angles

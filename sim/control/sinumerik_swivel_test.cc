@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "sim/control/sinumerik_test_machine.h"
 
@@ -80,6 +81,23 @@ TEST(SinumerikSwivel, SolidAngleAndDirect) {
   EXPECT_LT((PoseOf(direct, 5).point - PoseOf(direct, 4).point - Vector3d::UnitX()).norm(), 1e-9);
 }
 
+// Operating Manual Milling: the plane's traces in the old YZ and ZX planes make the angles with Y
+// and X, and the new X lies in the old ZX plane. So the normal is along (tan b, -tan a, 1).
+TEST(SinumerikSwivel, ProjectionAnglesAreThoseOfThePlanesTraces) {
+  const double a = Radians(10.0), b = Radians(20.0);
+  Matrix3d plane;
+  plane.col(0) = Vector3d(std::cos(b), 0.0, -std::sin(b));
+  plane.col(2) = Vector3d(std::tan(b), -std::tan(a), 1.0).normalized();
+  plane.col(1) = plane.col(2).cross(plane.col(0));
+  const std::string call = "CYCLE800(0,\"\",0,", rest = "0,0,0,0,1)\nG0 X7 Y8 Z9\n";
+  ExpectInPlane(Simulate(call + "185,1,2,3,10,20," + rest), 4, {7, 8, 9}, plane, {1, 2, 3});
+  ExpectInPlane(Simulate(call + "182,1,2,3,20,10," + rest), 4, {7, 8, 9}, plane, {1, 2, 3});
+  ExpectInPlane(Simulate(call + "185,1,2,3,10,20,3" + rest), 4, {7, 8, 9}, plane * Turn(2, 30),
+                {1, 2, 3});
+  // One angle alone is a turn about its axis.
+  ExpectInPlane(Simulate(call + "185,0,0,0,0,20," + rest), 4, {7, 8, 9}, Turn(1, 20));
+}
+
 TEST(SinumerikSwivel, AnglesOfAPostGiveTheToolAxesOfOthers) {
   // One part posted for four controls: these angles stand for these tool axes.
   const TestRun run =
@@ -128,6 +146,41 @@ TEST(SinumerikSwivel, AtThePoleTheLastTableTakesTheTurn) {
   EXPECT_NEAR(std::abs(PoseOf(half, 4).c), 150.0, 1e-9);
   ExpectInPlane(half, 4, {7, 8, 9}, Turn(2, 30));
   EXPECT_FALSE(half.Assumed("swivel at the pole"));
+}
+
+TEST(SinumerikSwivel, WhatANominalModelStatesIsAssumedWithoutHarm) {
+  // B5 C0 or B-5 C180, then the pole, with a retraction: all three data count.
+  const std::string text =
+      "CYCLE800(1,\"\",0,57,0,0,0,0,5,0,0,0,0,1)\nCYCLE800(1,\"\",0,57,0,0,0,0,0,30,0,0,0,1)\n";
+  const std::vector<std::string> names = {"SD55221", "TC_CARR40", "swivel_reference"};
+  const auto placing = [](const TestRun& run) {
+    int count = 0;
+    for (const Assumption& assumption : run.summary.assumptions) count += assumption.places_metal;
+    return count;
+  };
+  SinumerikTest control;
+  const int from_the_start = placing(Simulate("", control));
+  EXPECT_EQ(placing(Simulate(text, control)), from_the_start + 3);
+  control.machine.control.settings.insert(
+      {{"SD55221", "8192"}, {"TC_CARR40", "-10"}, {"swivel_reference", "1"}});
+  control.machine.control.nominal_settings = names;
+  const TestRun nominal = Simulate(text, control);
+  EXPECT_EQ(placing(nominal), from_the_start);
+  EXPECT_NEAR(PoseOf(nominal, 4).c, 30.0, 1e-9);
+  for (const std::string& name : names) EXPECT_TRUE(nominal.Assumed(name)) << name;
+  // Not of a program that does not swivel, nor where the job states them.
+  for (const std::string& name : names) EXPECT_FALSE(Simulate("", control).Assumed(name)) << name;
+  for (const std::string& name : names) {
+    control.job.control[name] = control.machine.control.settings[name];
+  }
+  for (const std::string& name : names) EXPECT_FALSE(Simulate(text, control).Assumed(name)) << name;
+}
+
+TEST(SinumerikSwivel, DirectGoesWhereItSaysAtThePoleToo) {
+  SinumerikTest control;
+  control.job.control["SD55221"] = std::to_string(1 << 13);
+  const TestRun run = Simulate("CYCLE800(0,\"\",0,192,0,0,0,0,30,0,0,0,0,-1)\n", control);
+  EXPECT_NEAR(PoseOf(run, 3).c, 30.0, 1e-9);
 }
 
 TEST(SinumerikSwivel, WithoutPositioningTheAxesMustStandThere) {

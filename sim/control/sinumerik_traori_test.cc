@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // TRAORI (NC programming 12/2019, "5-axis transformation"; machine data by number).
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -335,10 +336,65 @@ TEST(SinumerikTraori, RapidsAreSmoothedToo) {
   }
 }
 
+// The rotations of MD21094 worked out by hand for normal Z and tangent X, LEAD 10, TILT 20.
+TEST(SinumerikTraori, LeadAndTiltByMd21094) {
+  const double s = std::sin(Radians(10.0)), c = std::cos(Radians(10.0));
+  const double st = std::sin(Radians(20.0)), ct = std::cos(Radians(20.0));
+  const Eigen::Vector3d expected[] = {{s * ct, s * st, c},
+                                      {s, -c * st, c * ct},
+                                      {s * ct, -st, c * ct},
+                                      {s * ct, -st, c * ct},
+                                      {s, -st * c, ct * c}};
+  SinumerikTest control;
+  for (int order = 0; order < 5; ++order) {
+    control.job.control["MD21094"] = std::to_string(10 * order);
+    for (const std::string code : {"ORIVECT", "ORIPATH"}) {
+      const TestRun run = control.Run(std::string(kStart) + code + " G1 F500 X5 LEAD=10 TILT=20\n");
+      ExpectTip(control, run, 4, {5, 0, 20}, expected[order]);
+      EXPECT_TRUE(run.findings.empty()) << run.Text();
+      EXPECT_TRUE(run.Assumed("LEAD") && run.Assumed("TILT"));
+    }
+  }
+  // Backwards along Y, against a normal that leans to X: across it, so LEAD stays in their plane.
+  control.job.control.clear();
+  TestRun run = control.Run(std::string(kStart) + "G1 F500 Y-5 A4=1 C4=1 LEAD=10 TILT=0\nY-6\n");
+  const Eigen::Vector3d normal = Eigen::Vector3d(1, 0, 1).normalized();
+  ExpectTip(control, run, 4, {0, -5, 20}, c * normal - s * Eigen::Vector3d::UnitY());
+  ExpectTip(control, run, 5, {0, -6, 20}, c * normal - s * Eigen::Vector3d::UnitY());
+  EXPECT_FALSE(run.Assumed("TILT"));
+  // The normal of a block's end holds on; both angles 0: along it, whatever their sense.
+  run = control.Run(std::string(kStart) + "G1 F500 X5 A5=1 C5=1 A3=0 C3=1\nY5 LEAD=0 TILT=0\n");
+  ExpectTip(control, run, 5, {5, 5, 20}, normal);
+  EXPECT_FALSE(run.Assumed("LEAD") || run.Assumed("TILT"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+}
+
+TEST(SinumerikTraori, LeadAndTiltAreNamedWhereTheyAreNotClear) {
+  SinumerikTest control;
+  const auto message = [&](const std::string& text) {
+    const TestRun run = control.Run(std::string(kStart) + "G1 F500 " + text + "\n");
+    const Finding* found = run.Find(Rule::kUnsupportedCode);
+    return found == nullptr ? run.Text() : found->message;
+  };
+  const std::string both = " LEAD=5 TILT=0";
+  EXPECT_THAT(message("B10" + both), ::testing::HasSubstr("no line"));
+  EXPECT_THAT(message("\nG2 X10 CR=9" + both), ::testing::HasSubstr("no line"));
+  EXPECT_THAT(message("ORIMKS X1" + both), ::testing::HasSubstr("ORIMKS"));
+  EXPECT_THAT(message("X1" + both + " A3=1"), ::testing::HasSubstr("LEAD"));
+  EXPECT_THAT(message("X1 A5=1" + both), ::testing::HasSubstr("normal is along the path"));
+  EXPECT_THAT(message("X1 C5=0" + both), ::testing::HasSubstr("normal is along the path"));
+  EXPECT_THAT(message("X1" + both + "\nX2 TILT=1"), ::testing::HasSubstr("both angles"));
+  EXPECT_THAT(message("ORIPATH X1" + both + "\nX2"), ::testing::HasSubstr("both angles"));
+  EXPECT_THAT(message("TRAFOOF\nG54 X1" + both), ::testing::HasSubstr("without TRAORI"));
+  control.job.control["MD21094"] = "1";
+  EXPECT_THAT(message("ORIPATH X1" + both), ::testing::HasSubstr("MD21094 = 1"));
+  EXPECT_EQ(message("ORIVECT X1" + both), "");
+}
+
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
   for (const std::string block :
-       {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5", "M77", "POS[X]=1", "G58 X1", "TRACYL(40)",
-        "RNDM=2 X1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
+       {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5 TILT=1", "ORIPATH X2", "M77", "POS[X]=1", "TRACYL(40)",
+        "POSA[X]=1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
     const TestRun run = SinumerikTest().Run(std::string(kStart) + "G1 F500 X1\n" + block + "\n");
     EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << block << run.Text();
   }

@@ -60,6 +60,7 @@ std::vector<Setting> SinumerikSettings() {
   whole("MD21108", 0, 19999);            // POLE_ORI_MODE
   whole("MD21180", 0, 999);              // ROT_AX_SWL_CHECK_MODE
   whole("MD22550", 0, 1);                // TOOL_CHANGE_MODE
+  whole("MD24000", 0, 1);                // FRAME_ADD_COMPONENTS
   whole("MD24100", 16, 72);              // TRAFO_TYPE_1
   add("MD24540", SettingKind::kAngle);   // TRAFO5_POLE_LIMIT_1
   for (const char axis : {'A', 'B', 'C'}) {

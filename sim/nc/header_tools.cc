@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/nc/scanner.h"
+#include "sim/nc/sinumerik_block.h"
 
 namespace ncsim::nc {
 namespace {
@@ -169,7 +170,26 @@ class HeaderReader {
   std::vector<HeaderTool> tools_;
 };
 
+/// A part of a block that gives an axis a value.
+bool IsAxis(const SinumerikPart& part) {
+  return std::string_view("XYZABCUVW").find(part.letter) != std::string_view::npos &&
+         part.letter != 0;
+}
+
 }  // namespace
+
+std::vector<HeaderTool> ReadSinumerikHeaderTools(const Program& program) {
+  HeaderReader reader;
+  SinumerikBlock block;
+  std::size_t offset = program.begin();
+  for (int line = 1; line <= kMaxLines && offset < program.text().size(); ++line) {
+    ParseSinumerikBlock(program, offset, line, &block);
+    if (std::any_of(block.parts.begin(), block.parts.end(), IsAxis)) break;
+    reader.Read(block.comment, line);
+    offset = block.next;
+  }
+  return reader.Take();
+}
 
 std::vector<HeaderTool> ReadHeaderTools(const Program& program) {
   HeaderReader reader;

@@ -22,5 +22,7 @@ struct HeaderTool {
 /// NX's TOOL TABLE SUMMARY and the `(T1 D=0.5 CR=0.25 - ZMIN=... - BALL END MILL)` lines of
 /// Autodesk's posts. Reads comments up to the first block that moves an axis.
 std::vector<HeaderTool> ReadHeaderTools(const Program& program);
+/// The same of a SINUMERIK program, whose comments begin with a semicolon.
+std::vector<HeaderTool> ReadSinumerikHeaderTools(const Program& program);
 
 }  // namespace ncsim::nc

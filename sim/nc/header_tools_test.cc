@@ -33,6 +33,19 @@ TEST(HeaderToolsTest, NxSummary) {
   EXPECT_DOUBLE_EQ(tools[1].diameter, 0.25);
 }
 
+TEST(HeaderToolsTest, SinumerikComments) {
+  const auto tools = ReadSinumerikHeaderTools(*Program::FromText(
+      "test.mpf",
+      "; PART\n; T1 D=10. CR=1. - BALL MILL X5\nN10 G710 ; T2 D=8.\nN20 G0 X0\n; T3 D=9.\n"));
+  ASSERT_EQ(tools.size(), 2u);
+  EXPECT_EQ(tools[0].number, 1);
+  EXPECT_EQ(tools[0].name, "BALL MILL X5");
+  EXPECT_DOUBLE_EQ(tools[0].diameter, 10.0);
+  EXPECT_DOUBLE_EQ(tools[0].corner_radius, 1.0);
+  EXPECT_EQ(tools[1].number, 2);
+  EXPECT_EQ(tools[1].line, 3);
+}
+
 TEST(HeaderToolsTest, AutodeskList) {
   const auto tools = Read(
       "%\nO1\n(T1 D=0.5 CR=0. - ZMIN=-0.45 - flat end mill)\n"

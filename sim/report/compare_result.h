@@ -29,6 +29,8 @@ void WriteText(const CompareResult& result, const SourceFiles& files, const Line
                std::ostream& out);
 /// The last line of WriteText, without its end.
 std::string Summary(const CompareResult& result);
+/// Of two that are the same motion: "hub.nc: the motion of hub.cls: tip within 0.0011 mm, ...".
+std::string Nearness(const CompareResult& result);
 /// One JSON object and a line end; docs/json.md describes it.
 void WriteJson(const CompareResult& result, const SourceFiles& files, std::ostream& out);
 

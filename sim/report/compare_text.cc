@@ -39,6 +39,14 @@ std::string Summary(const CompareResult& result) {
                    ", held against " + result.tested.program);
 }
 
+std::string Nearness(const CompareResult& result) {
+  const compare::Comparison& comparison = result.comparison;
+  return Printable(result.tested.program + ": the motion of " + result.reference.program +
+                   ": tip within " + RoundedUp(comparison.position.value) +
+                   " mm, tool axis within " + RoundedUp(Degrees(comparison.angle.value)) +
+                   " deg, over " + Fixed(comparison.feed_length, 0) + " mm of feeds");
+}
+
 void WriteText(const CompareResult& result, const SourceFiles& files, const LineText& line_text,
                std::ostream& out) {
   WriteFindings(result.findings, files, line_text, out);

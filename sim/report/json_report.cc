@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sim/base/units.h"
 #include "sim/report/compare_result.h"
+#include "sim/report/json_values.h"
 #include "sim/report/result.h"
 
 namespace ncsim::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Rounded to `decimals`; null for what is not a finite number; never -0.
-Json Number(double value, int decimals) {
-  if (!std::isfinite(value)) return nullptr;
-  const double scale = std::pow(10.0, decimals);
-  const double scaled = std::round(value * scale);
-  return std::isfinite(scaled) ? scaled / scale + 0.0 : value;
-}
-
 /// A proven clearance is rounded down: it must stay true.
 Json RoundedDown(double value_mm) {
   if (!std::isfinite(value_mm)) return nullptr;
   return std::floor(value_mm * 100.0 + 1e-9) / 100.0 + 0.0;
-}
-
-template <typename Items, typename Convert>
-Json Array(const Items& items, const Convert& convert) {
-  Json array = Json::array();
-  for (const auto& item : items) array.push_back(convert(item));
-  return array;
 }
 
 Json Place(const SourcePosition& where, const SourceFiles& files) {
@@ -46,21 +28,7 @@ Json ToJson(const Finding& finding, const SourceFiles& files) {
   json["column"] = finding.where.column;
   json["message"] = finding.message;
   if (finding.other) json["other"] = Place(*finding.other, files);
-  if (!finding.bodies.empty()) {
-    json["bodies"] = finding.bodies;
-    json["clearance_mm"] = finding.clearance_mm ? Number(*finding.clearance_mm, 2) : Json(nullptr);
-  }
-  if (!finding.axes.empty()) {
-    Json& axes = json["axes"] = Json::object();
-    for (const auto& [letter, value] : finding.axes)
-      axes[std::string(1, letter)] = Number(value, 4);
-  }
-  if (!finding.points.empty()) {
-    json["points_mm"] = Array(finding.points, [](const std::array<double, 3>& p) {
-      return Json{Number(p[0], 3), Number(p[1], 3), Number(p[2], 3)};
-    });
-  }
-  if (finding.time_s) json["time_s"] = Number(*finding.time_s, 3);
+  AddDetails(finding, &json);
   return json;
 }
 

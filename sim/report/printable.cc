@@ -31,6 +31,7 @@ std::size_t SequenceLength(std::string_view text, std::size_t i) {
     if (lead == 0xF4) high = 0x8F;
   }
   if (length == 0 || i + length > text.size() || second < low || second > high) return 0;
+  if (lead == 0xEF && second == 0xBF && byte(2) >= 0xBE) return 0;  // No characters: U+FFFE, FFFF.
   for (std::size_t k = 2; k < length; ++k) {
     if (!IsContinuation(text[i + k])) return 0;
   }
@@ -56,6 +57,16 @@ std::string Printable(std::string_view text) {
     i += length;
   }
   return result;
+}
+
+std::vector<std::string> PrintableLines(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (end > 0) lines.push_back(Printable(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
 }
 
 std::string LineWithCaret(std::string_view line, int column, std::size_t width) {

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ncsim::report {
 
@@ -12,6 +13,9 @@ namespace ncsim::report {
 /// sequences, stray bytes) as
 /// '?'. Tabs stay.
 std::string Printable(std::string_view text);
+
+/// The lines of `text`, each Printable(), without empty ones.
+std::vector<std::string> PrintableLines(std::string_view text);
 
 /// A source line cut to a window of at most `width` characters around `column` (from 1, in bytes),
 /// with "..." where it was cut, and a second line with a caret under the column. Both are indented

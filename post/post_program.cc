@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "post/post_program.h"
+
+#include <algorithm>
+#include <deque>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace ncsim::post {
+namespace {
+
+/// The texts as they are written, and where in them each operation begins.
+class Recorder : public PlanSink {
+ public:
+  Recorder(const PostJob& job, Diagnostics* diagnostics)
+      : writer_(*job.post, job.info, diagnostics, &Open(""), OpenerOf(job)) {}
+
+  void OnStep(const PlanStep& step) override {
+    writer_.OnStep(step);
+    if (const auto* operation = std::get_if<PlanOperation>(&step.what)) {
+      PostedOperation begun;
+      begun.operation = step.modal->operation->index;
+      begun.where = step.where;
+      begun.mode = operation->mode;
+      begun.file = streams_.size() - 1;
+      begins_.push_back(static_cast<std::size_t>(streams_.back().tellp()));
+      program_.operations.push_back(begun);
+    } else if (std::holds_alternative<PlanMove>(step.what) ||
+               std::holds_alternative<PlanHole>(step.what)) {
+      ++program_.moves;
+    }
+  }
+
+  PostedProgram Take(const std::vector<PlanChoice>& choices) {
+    for (std::size_t i = 0; i < streams_.size(); ++i) {
+      program_.files[i].text = std::move(streams_[i]).str();
+    }
+    for (std::size_t i = 0; i < program_.operations.size() && i < choices.size(); ++i) {
+      PostedOperation& operation = program_.operations[i];
+      operation.ways = choices[i].ways;
+      operation.taken = choices[i].taken;
+      const std::string& text = program_.files[operation.file].text;
+      const auto end = text.begin() + static_cast<std::ptrdiff_t>(begins_[i]);
+      operation.line = 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
+    }
+    return std::move(program_);
+  }
+
+ private:
+  std::ostringstream& Open(const std::string& name) {
+    program_.files.push_back({name, ""});
+    return streams_.emplace_back();
+  }
+  NcWriter::OpenFile OpenerOf(const PostJob& job) {
+    if (!job.file_for_operation) return nullptr;
+    return [this](const std::string& name) { return &Open(name); };
+  }
+
+  PostedProgram program_;
+  std::vector<std::size_t> begins_;         ///< Of the operations, in their files' texts.
+  std::deque<std::ostringstream> streams_;  // A deque: the writer keeps pointers.
+  NcWriter writer_;
+};
+
+}  // namespace
+
+ClSummary ReadCl(const std::shared_ptr<const nc::Program>& cl, const ClOptions& options,
+                 Diagnostics* diagnostics) {
+  ClSummary summary;
+  std::set<std::pair<std::optional<int>, std::string>> known;
+  ClPath path(cl, 0, options, diagnostics);
+  for (ClEvent event; path.Next(&event);) {
+    summary.operations = std::max(summary.operations, event.modal->operation->index);
+    if (!std::holds_alternative<ClMotion>(event.what) &&
+        !std::holds_alternative<ClHole>(event.what)) {
+      continue;
+    }
+    ++summary.motions;
+    const ClTool& tool = *event.modal->tool;
+    // A number is a pocket of the machine, whatever the file calls the tool in it.
+    if (known.insert({tool.number, tool.number ? "" : tool.name}).second) {
+      summary.tools.push_back(tool);
+    }
+  }
+  summary.unit = path.unit();
+  return summary;
+}
+
+PostedProgram PostProgram(const PostJob& job, const PlanOptions& options,
+                          Diagnostics* diagnostics) {
+  Recorder recorder(job, diagnostics);
+  Planner planner(*job.geometry, options, job.cl->name(), diagnostics, &recorder);
+  ClPath path(job.cl, 0, job.cl_options, diagnostics);
+  for (ClEvent event; !diagnostics->has_errors() && path.Next(&event);) planner.Take(event);
+  return recorder.Take(planner.choices());
+}
+
+}  // namespace ncsim::post
