@@ -181,11 +181,18 @@ void Browser::Press(const std::string& key) {
   Send("Input.dispatchKeyEvent", {{"type", "keyUp"}, {"key", key}});
 }
 
-void Browser::Click(double x, double y) {
-  for (const char* type : {"mousePressed", "mouseReleased"}) {
-    Send("Input.dispatchMouseEvent",
-         {{"type", type}, {"x", x}, {"y", y}, {"button", "left"}, {"clickCount", 1}});
-  }
+void Browser::Drag(double x, double y, double dx, double dy) {
+  const auto mouse = [&](const char* type, double to_x, double to_y) {
+    Send("Input.dispatchMouseEvent", {{"type", type},
+                                      {"x", to_x},
+                                      {"y", to_y},
+                                      {"button", "left"},
+                                      {"buttons", 1},
+                                      {"clickCount", 1}});
+  };
+  mouse("mousePressed", x, y);
+  if (dx != 0.0 || dy != 0.0) mouse("mouseMoved", x + dx, y + dy);
+  mouse("mouseReleased", x + dx, y + dy);
 }
 
 std::string Browser::Screenshot() {

@@ -32,7 +32,9 @@ class Browser {
   Json Evaluate(const std::string& expression);
   /// A key as a person presses it.
   void Press(const std::string& key);
-  void Click(double x, double y);
+  void Click(double x, double y) { Drag(x, y, 0.0, 0.0); }
+  /// Left button down at (x, y), by (dx, dy), up.
+  void Drag(double x, double y, double dx, double dy);
   /// PNG.
   std::string Screenshot();
   /// Errors and exceptions that the page has told its console.

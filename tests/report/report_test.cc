@@ -204,6 +204,12 @@ TEST_F(ReportPage, PickingAFindingALineAndAKey) {
   browser_->Press("s");
   EXPECT_EQ(browser_->Evaluate("ncsim.view.renderer.clippingPlanes.length"), 1);
   browser_->Press("s");
+  const double azimuth = browser_->Evaluate("ncsim.view.turn.azimuth");
+  browser_->Drag(300.0, 350.0, 80.0, 0.0);
+  EXPECT_GT(browser_->Evaluate("ncsim.view.turn.azimuth"), azimuth + 0.3);
+  // A click in the time line goes there: its middle is the middle of the program.
+  ClickOn("#plot");
+  EXPECT_NEAR(browser_->Evaluate("ncsim.time / ncsim.run.end"), 0.5, 0.01);
   browser_->Press("t");
   EXPECT_EQ(browser_->Evaluate("document.documentElement.classList.contains('dark')"), true);
   const double begin = browser_->Evaluate("ncsim.goTo(0), ncsim.time");
