@@ -63,7 +63,7 @@ void Pictures::WritePage(const report::CheckResult& result, const SourceFiles& f
   }
   if (!options_.interpret_only) {
     page.clearance = report::LookAtClearance(*machine_, *scene_, *tools_, picture.recording,
-                                             result.findings, kClearanceLooks);
+                                             result, kClearanceLooks);
   }
   report::WriteHtml(page, page_);
 }

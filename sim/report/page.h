@@ -30,10 +30,11 @@ struct ClearanceTrack {
   std::vector<std::vector<std::string>> pairs;
 };
 
-/// Looks at the run at `count` instants, evenly spaced, and at each finding's.
+/// Looks at the run at `count` instants, evenly spaced, at each finding's, and through the blocks
+/// where pairs are nearest.
 ClearanceTrack LookAtClearance(const machine::Machine& machine, const machine::Scene& scene,
                                const machine::ToolTable& tools, const Recording& recording,
-                               const std::vector<Finding>& findings, int count);
+                               const CheckResult& result, int count);
 
 struct Page {
   const CheckResult* result = nullptr;

@@ -181,6 +181,20 @@ TEST_F(ReportPage, ScrubbingMovesTheMachineAsTheTraceSays) {
   ExpectNoComplaint();
 }
 
+// What the certified checker has seen as the least clearance is what the page opens on.
+TEST_F(ReportPage, APassOpensWhereBodiesComeNearest) {
+  const ShownRun run(ScenePath("three_plus_two/angle_block.nc"));
+  Open(run, 1280);
+  EXPECT_EQ(browser_->Evaluate("ncsim.view.lit.join()"), "T2.flutes,vise");  // README.md
+  const Json nearest = browser_->Evaluate(
+      "ncsim.page.result.clearances.find((c) => c.bodies.join() === 'T2.flutes,vise')");
+  const double seen = nearest["seen_mm"];
+  const double shown =
+      browser_->Evaluate("ncsim.seen.values[lastAtMost(ncsim.seen.times, ncsim.time + 1e-6)]");
+  EXPECT_NEAR(shown, seen, 0.03 * seen);
+  ExpectNoComplaint();
+}
+
 TEST_F(ReportPage, PickingAFindingALineAndAKey) {
   const ShownRun run(ScenePath("crash_gallery/near-miss.nc"));
   Open(run, 1280);
@@ -245,12 +259,14 @@ TEST_F(ReportOfTheUmc750Program, ShowsAPassAndACrash) {
     }
   }
   scene_.riser_diameter = 260.0;  // As Umc750Verdict.WideRiserIsHit has it.
+  Keep(2800);
   WriteJob();
   const ShownRun crash(Program(), options);
   ASSERT_EQ(crash.exit_code(), 1) << crash.messages();
   Open(crash, 1280);
   EXPECT_EQ(browser_->Evaluate("document.getElementById('verdict').textContent"), "fail");
-  EXPECT_EQ(browser_->Evaluate("ncsim.view.lit.length"), 2);
+  EXPECT_EQ(browser_->Evaluate("ncsim.view.lit.join()"), "T3.holder,riser");
+  EXPECT_EQ(browser_->Evaluate("ncsim.text.now.line"), 2789);
   const std::map<char, double> own = AxesOf("ncsim.current.axes");
   ASSERT_EQ(own.size(), 5U);
   ExpectScene(own, 1e-3, "crash");

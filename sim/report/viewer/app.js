@@ -9,6 +9,9 @@ class App {
   constructor(page) {
     this.page = page;
     this.run = new Run(page);
+    const {clearance, units} = page.scene;
+    this.seen = {times: page.column(clearance.ticks, units.ticks_per_s), values: page.column(clearance.values, units.clearance_per_mm),
+      pair: page.column(clearance.pair), pairs: clearance.pairs};
     this.findings = page.result.findings.map((finding, i) => this.place(finding, page.scene.contacts[i]));
     this.nearest = this.nearestPairs();
     this.time = 0;
@@ -17,7 +20,7 @@ class App {
     const go = {time: (t) => this.goTo(t), finding: (f) => this.goToFinding(f), line: (f, l) => this.goToLine(f, l)};
     this.view = new View(byId('canvas'), page, this.run);
     this.path = new TipPath(this.view, this.run, this.view.tools);
-    this.charts = new Charts(page, this.run, this.findings, go);
+    this.charts = new Charts(page, this.run, this.seen, this.findings, go);
     this.list = new FindingList(page.result, this.findings, this.nearest, go);
     this.text = new ProgramText(page.scene.texts, this.findings, go);
     this.head();
@@ -59,10 +62,25 @@ class App {
   /** Pairs by their least clearance, as findings that may be gone to. */
   nearestPairs() {
     const pairs = this.page.result.clearances.filter((c) => c.proven_mm !== null && c.line > 0);
-    return pairs.sort((a, b) => a.proven_mm - b.proven_mm).map((c) => this.place({severity: 'pass', rule: 'least clearance', file: c.file,
+    return pairs.sort((a, b) => a.proven_mm - b.proven_mm).map((c) => this.placeNearest({severity: 'pass', rule: 'least clearance', file: c.file,
       line: c.line, column: 1, bodies: c.bodies,
       message: c.proven_mm < 0 ? `${c.bodies.join(' and ')}: in contact`
         : `${c.bodies.join(' and ')}: never less than ${c.proven_mm.toFixed(2)} mm` + (c.seen_mm === null ? '' : `, seen ${c.seen_mm.toFixed(2)} mm`)}, []));
+  }
+
+  /** At the instant of its block at which it was seen nearest. */
+  placeNearest(pair, points) {
+    const placed = this.place(pair, points), {times, values, pair: which, pairs} = this.seen;
+    const name = pair.bodies.join();
+    let least = Infinity;
+    for (const step of (this.run.visits.get(placed.fileIndex + ':' + pair.line) || []).slice(0, 4)) {
+      for (let i = lastAtMost(times, this.run.begin[step]); i < times.length && times[i] <= this.run.endOf(step) + 1e-6; ++i) {
+        if (times[i] < this.run.begin[step] - 1e-6 || values[i] >= least || pairs[which[i]].join() !== name) continue;
+        least = values[i];
+        placed.time = times[i];
+      }
+    }
+    return placed;
   }
 
   head() {

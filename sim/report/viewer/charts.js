@@ -3,16 +3,14 @@
 'use strict';
 
 class Charts {
-  constructor(page, run, findings, go) {
+  constructor(page, run, seen, findings, go) {
     this.run = run;
     this.findings = findings;
     this.go = go;
     this.canvas = document.getElementById('plot');
     this.head = document.getElementById('playhead');
     this.tipBox = document.getElementById('tip');
-    const {clearance, units} = page.scene;
-    this.seen = {times: page.column(clearance.ticks, units.ticks_per_s),
-      values: page.column(clearance.values, units.clearance_per_mm), pair: page.column(clearance.pair), pairs: clearance.pairs};
+    this.seen = seen;
     this.tools = new Map(page.scene.tools.map((tool) => [tool.number, tool]));
     this.range = [0, Math.max(run.end, 1e-3)];
     this.rows = [{name: 'Tool', height: 18, draw: this.drawTools}, {name: 'Findings', height: 18, draw: this.drawFindings}];
@@ -46,6 +44,7 @@ class Charts {
     const style = getComputedStyle(document.documentElement);
     this.color = (name) => style.getPropertyValue('--' + name).trim();
     pen.font = '11px system-ui, sans-serif';
+    pen.lineJoin = 'bevel';
     pen.textBaseline = 'middle';
     let top = 0;
     for (const row of this.rows) {
