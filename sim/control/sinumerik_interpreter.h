@@ -209,11 +209,12 @@ class SinumerikInterpreter {
   void PushMachine(CommandKind kind, unsigned named, const AxisValues& target);
 
   // sinumerik_orientation.cc
-  bool TakeOrientation(AxisValues* end, unsigned* named);
+  bool TakeOrientation(const SinumerikArcWords* arc, AxisValues* end, unsigned* named);
   std::optional<Eigen::Vector3d> TakeTriple(char digit);
   std::optional<Eigen::Vector3d> TakeToolAxis();
   void TakeSurfaceNormal();
-  std::optional<Eigen::Vector3d> TakeLeaning(const AxisValues& end);
+  std::optional<Eigen::Vector3d> TakeLeaning(const SinumerikArcWords* arc, const AxisValues& end);
+  std::optional<Eigen::Vector3d> WayAt(const SinumerikArcWords* arc, const AxisValues& end) const;
   bool Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named);
   bool WithinLimits(const Eigen::Vector3d& u_B, const std::array<double, 2>& from, bool led,
                     std::array<double, 2>* reached);

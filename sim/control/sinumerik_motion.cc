@@ -155,7 +155,8 @@ void SinumerikInterpreter::ExecuteMotion() {
   const bool is_arc = !is_line;
   if (is_arc) TakePole(&arc);
   const bool go = TakeTargets(&end, &named) && TakePolar(&end, &named) &&
-                  TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc)) && TakePitch();
+                  (!is_arc || TakeArcWords(&arc)) &&
+                  TakeOrientation(is_arc ? &arc : nullptr, &end, &named) && TakePitch();
   constexpr unsigned kAside = 1U << kX | 1U << kY;
   if (tool_frame() && !suppressed && ((named & kAside) != 0 || is_arc)) {
     Unsupported("X, Y or an arc under TOROT", step_->where,
@@ -472,12 +473,7 @@ void SinumerikInterpreter::MoveOnArc(const SinumerikArcWords& words) {
   if (log_.stopped()) return;
   command_ = last;
   Push();
-  const Eigen::Vector3d radius =
-      Eigen::Vector3d(last.end[kX], last.end[kY], last.end[kZ]) - last.centre;
-  const Eigen::Vector3d normal = last.arc_normal.isZero(0.0)
-                                     ? Eigen::Vector3d(Eigen::Vector3d::Unit(plane.normal))
-                                     : last.arc_normal;
-  tangent_ = last.clockwise ? radius.cross(normal) : normal.cross(radius);
+  tangent_ = EndTangent(last);
 }
 
 /// False: an arc that is none any more in this frame, and it has been said.

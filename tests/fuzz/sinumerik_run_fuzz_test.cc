@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBlocks = 300;
 
-constexpr std::array<std::string_view, 103> kBlocks = {
+constexpr std::array<std::string_view, 104> kBlocks = {
     "G54 G0 G90 X0 Y0 Z50 B0 C0 D1",
     "T2 M6",
     "T=\"BALL\" M6",
@@ -111,6 +111,7 @@ constexpr std::array<std::string_view, 103> kBlocks = {
     "G1 X8 Y3 LEAD=5 TILT=10",
     "G1 X2 A5=1 C5=1 LEAD=-8 TILT=0",
     "ORIPATH",
+    "G3 X12 Y9 CR=40 LEAD=3 TILT=2",
     "G58 X2 C10",
     "G59 Y-3",
     "ROTS X10 Y-20",
