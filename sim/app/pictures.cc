@@ -62,8 +62,8 @@ void Pictures::WritePage(const report::CheckResult& result, const SourceFiles& f
     page.texts.push_back({files.name(file), texts->Text(file)});
   }
   if (!options_.interpret_only) {
-    page.clearance = report::LookAtClearance(*machine_, *scene_, *tools_, picture.recording,
-                                             result, kClearanceLooks);
+    page.clearance = report::LookAtClearance(*machine_, *scene_, *tools_, picture.recording, result,
+                                             kClearanceLooks);
   }
   report::WriteHtml(page, page_);
 }
