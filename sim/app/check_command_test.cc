@@ -249,6 +249,20 @@ TEST_F(CheckCommandTest, ANominalToolChangePoseWithinTenMillimetresIsAnAssumptio
                         "is nominal, not measured, and there "));
 }
 
+TEST_F(CheckCommandTest, PicturesAreWrittenOrThereAreNone) {
+  const std::string good = Write("good.nc", Program("G01 X10. F500."));
+  EXPECT_EQ(CheckWithJob({good, "--report", Path("r.html"), "--gltf", Path("g.glb")}), kExitPass);
+  EXPECT_THAT(Read("r.html"), AllOf(StartsWith("<!DOCTYPE html>"), EndsWith("</html>\n")));
+  EXPECT_THAT(Read("g.glb"), StartsWith("glTF"));
+  EXPECT_EQ(CheckWithJob({good, "--report", Path("no/such/r.html")}), kExitBadInput);
+  EXPECT_THAT(err_, HasSubstr("r.html: error: cannot be written"));
+  const std::string still = Write("still.nc", "%\nO0001\nG21\nM30\n%\n");
+  EXPECT_EQ(CheckWithJob({still, "--report", Path("s.html"), "--gltf", Path("s.glb")}),
+            kExitBadInput);
+  EXPECT_FALSE(fs::exists(Path("s.html")));
+  EXPECT_FALSE(fs::exists(Path("s.glb")));
+}
+
 TEST_F(CheckCommandTest, TraceHasARowForEachMotion) {
   const std::string program = Write("a.nc", Program("G01 X10. Z150. F500."));
   EXPECT_EQ(CheckWithJob({program, "--trace", Path("t.csv")}), kExitPass);

@@ -14,6 +14,7 @@
 #include "sim/app/assumptions.h"
 #include "sim/app/finding_log.h"
 #include "sim/app/nominal.h"
+#include "sim/app/pictures.h"
 #include "sim/app/pipeline.h"
 #include "sim/app/program_input.h"
 #include "sim/app/tool_source.h"
@@ -34,11 +35,13 @@ class ProgramCheck {
         name_(program),
         progress_(progress),
         cache_(cache),
-        program_(std::move(text)) {}
+        program_(std::move(text)),
+        pictures_(options) {}
 
   ProgramOutcome Run() {
     outcome_.exit_code = kExitBadInput;
-    const bool loaded = LoadProgram() && LoadJob() && LoadMachine() && BuildScene() && OpenTrace();
+    const bool loaded = LoadProgram() && LoadJob() && LoadMachine() && BuildScene() &&
+                        OpenTrace() && OpenPictures();
     AppendDiagnostics();
     if (!loaded) return std::move(outcome_);
     Simulate();
@@ -48,6 +51,7 @@ class ProgramCheck {
     }
     if (!CloseTrace()) return std::move(outcome_);
     Judge();
+    if (!WritePictures()) return std::move(outcome_);
     Report();
     outcome_.result = std::move(result_);
     outcome_.files = std::move(files_);
@@ -117,6 +121,25 @@ class ProgramCheck {
     return false;
   }
 
+  bool OpenPictures() {
+    std::string complaint;
+    if (pictures_.Open(&complaint)) return true;
+    Complain(complaint);
+    return false;
+  }
+
+  bool WritePictures() {
+    std::string complaint;
+    Diagnostics missing;
+    SourceLines texts(files_);
+    texts.Know(0, program_);
+    const bool written =
+        pictures_.Write(result_, files_, &texts, pipeline_->used_tools(), &missing, &complaint);
+    for (const Diagnostic& diagnostic : missing.all()) Complain(ToString(diagnostic));
+    if (!written) Complain(complaint);
+    return written;
+  }
+
   /// Tells `progress_` by lines of the program itself; a subprogram's are those of its call.
   std::function<void(const motion::Window&)> WindowReport() const {
     if (!progress_) return {};
@@ -145,6 +168,8 @@ class ProgramCheck {
     parts.files = &files_;
     parts.part_frames = &part_frames_;
     parts.trace = trace_ ? &*trace_ : nullptr;
+    pictures_.Start(*machine_, scene_, tools_);
+    parts.recorder = pictures_.recorder();
     parts.collision = checker_ ? &*checker_ : nullptr;
     parts.log = &log_;
     pipeline_.emplace(parts, WindowReport());
@@ -216,6 +241,11 @@ class ProgramCheck {
     result.findings = log_.Take();
     result.assumptions = summary_.assumptions;
     result.verdict = ncsim::Judge(result.findings, result.assumptions, options_.strict);
+    result.program = name_;
+    result.model = machine_->name;
+    result.job = job_->path;
+    result.blocks = summary_.blocks;
+    result.motion_time = summary_.motion_time;
   }
 
   std::vector<std::string> AssumptionNames() const {
@@ -225,11 +255,6 @@ class ProgramCheck {
   }
 
   void Report() {
-    result_.program = name_;
-    result_.model = machine_->name;
-    result_.job = job_->path;
-    result_.blocks = summary_.blocks;
-    result_.motion_time = summary_.motion_time;
     std::ostringstream text;
     if (options_.format == Format::kJson) {
       report::WriteJson(result_, files_, text);
@@ -260,6 +285,7 @@ class ProgramCheck {
   SourceFiles files_;
   std::vector<control::PartFrame> part_frames_;
   FindingLog log_;
+  Pictures pictures_;
   std::optional<Pipeline> pipeline_;
   control::RunSummary summary_;
   report::CheckResult result_;

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "sim/app/app.h"
@@ -41,7 +40,6 @@ constexpr const char* kExamples =
 
 /// Of the contract, but of later versions: refused by name, never accepted and ignored.
 const std::vector<std::string> kLaterCommands = {"nightly"};
-const std::vector<std::string> kLaterOptions = {"--report", "--gltf"};
 
 const std::vector<std::pair<std::string, Format>> kCheckFormats = {{"text", Format::kText},
                                                                    {"json", Format::kJson},
@@ -147,15 +145,21 @@ class CommandLine {
         ->add_option("--trace", o.trace, "write a row at the end of each motion (one program only)")
         ->type_name("T.csv");
     check_
+        ->add_option("--report", o.report,
+                     "write a page that shows the run in three dimensions: opens from disk in any "
+                     "browser (one program only)")
+        ->type_name("R.html");
+    check_
+        ->add_option("--gltf", o.gltf,
+                     "write the machine in motion as a binary glTF file (one program only)")
+        ->type_name("G.glb");
+    check_
         ->add_option("--cache", o.cache,
                      "keep what was computed in this folder, and compute only what has changed; "
                      "the report is the same")
         ->type_name("DIR");
     check_->add_flag("--interpret-only", o.interpret_only,
                      "leave out the collision checks; the verdict is unproven at best");
-    for (const std::string& name : kLaterOptions) {
-      check_->add_option(name, later_.emplace_back())->group("");
-    }
   }
 
   void AddPost() {
@@ -373,9 +377,6 @@ class CommandLine {
   std::string FinishCheck() {
     command_.kind = Command::Kind::kCheck;
     CheckOptions& o = command_.check;
-    for (const std::string& name : kLaterOptions) {
-      if (check_->count(name) > 0) return "'" + name + "' is not in this version of ncsim";
-    }
     if (const std::string error = FinishCommon(check_, kCheckFormats, &o.format, &o.assume);
         !error.empty()) {
       return error;
@@ -390,6 +391,8 @@ class CommandLine {
     if (o.programs.empty()) return "check needs a program: ncsim check part.nc --model umc750.urdf";
     if (check_->count("--cache") > 0 && o.cache.empty()) return "--cache takes a folder";
     if (!o.trace.empty() && o.programs.size() > 1) return "--trace takes one program";
+    if (!o.report.empty() && o.programs.size() > 1) return "--report takes one program";
+    if (!o.gltf.empty() && o.programs.size() > 1) return "--gltf takes one program";
     return "";
   }
 
@@ -408,7 +411,6 @@ class CommandLine {
   std::string unit_, cl_unit_, cl_system_;
   int number_ = 0, first_tool_ = 0;
   bool no_check_ = false;
-  std::deque<std::string> later_;  // A deque: the parser keeps references.
 };
 
 Command UsageError(const std::string& message, std::ostream& err) {

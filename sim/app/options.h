@@ -29,9 +29,11 @@ struct CheckOptions {
   std::optional<double> clearance;  ///< mm; overrides the job's.
   int jobs = 0;                     ///< Threads; 0: as many as there are processors.
   Format format = Format::kText;
-  std::string out;    ///< Report file; "" for standard output.
-  std::string trace;  ///< "" for none.
-  std::string cache;  ///< Folder; "" for none.
+  std::string out;     ///< Report file; "" for standard output.
+  std::string trace;   ///< "" for none.
+  std::string gltf;    ///< "" for none.
+  std::string report;  ///< HTML; "" for none.
+  std::string cache;   ///< Folder; "" for none.
   bool interpret_only = false;
 };
 

@@ -25,6 +25,7 @@ void Pipeline::OnMotion(const motion::Motion& motion) {
     const auto& frame = parts_.part_frames->at(static_cast<std::size_t>(motion.facts.offset));
     parts_.trace->Write(motion, frame.X_BP, ToolLength(tool), *parts_.files);
   }
+  if (parts_.recorder != nullptr) parts_.recorder->OnMotion(motion);
   for (const std::unique_ptr<checks::Check>& check : checks_) check->OnMotion(motion, &found_);
   if (!found_.empty()) parts_.log->Add(std::exchange(found_, {}));
   tool_changes_.OnMotion(motion);

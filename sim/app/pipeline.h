@@ -14,19 +14,21 @@
 #include "sim/control/controller.h"
 #include "sim/machine/tool.h"
 #include "sim/motion/window.h"
+#include "sim/report/recording.h"
 #include "sim/report/result.h"
 
 namespace ncsim::app {
 
 class Pipeline : public control::RunSink {
  public:
-  /// What a pipeline feeds; all outlive it. `trace` and `collision` may be null.
+  /// What a pipeline feeds; all outlive it. `trace`, `recorder` and `collision` may be null.
   struct Parts {
     const machine::Machine* machine = nullptr;
     const machine::ToolTable* tools = nullptr;
     const SourceFiles* files = nullptr;
     const std::vector<control::PartFrame>* part_frames = nullptr;
     report::TraceWriter* trace = nullptr;
+    report::Recorder* recorder = nullptr;
     collision::CollisionChecker* collision = nullptr;
     FindingLog* log = nullptr;
   };

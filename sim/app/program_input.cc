@@ -45,13 +45,23 @@ std::optional<std::string> ModelPath(const std::string& program, const std::stri
   return std::nullopt;
 }
 
-std::string_view SourceLines::operator()(int file, int line) {
+const nc::Program* SourceLines::Find(int file) {
   auto found = programs_.find(file);
   if (found == programs_.end()) {
     Diagnostics ignored;  // The control has read the file and reported what is wrong with it.
     found = programs_.emplace(file, nc::Program::Load(files_->name(file), &ignored)).first;
   }
-  return found->second == nullptr ? "" : found->second->LineByNumber(line);
+  return found->second.get();
+}
+
+std::string_view SourceLines::operator()(int file, int line) {
+  const nc::Program* program = Find(file);
+  return program == nullptr ? "" : program->LineByNumber(line);
+}
+
+std::string_view SourceLines::Text(int file) {
+  const nc::Program* program = Find(file);
+  return program == nullptr ? "" : program->text();
 }
 
 }  // namespace ncsim::app

@@ -33,8 +33,12 @@ class SourceLines {
     programs_[file] = std::move(program);
   }
   std::string_view operator()(int file, int line);
+  /// All of a file; empty where it cannot be read.
+  std::string_view Text(int file);
 
  private:
+  const nc::Program* Find(int file);
+
   const SourceFiles* files_;
   std::map<int, std::shared_ptr<const nc::Program>> programs_;
 };

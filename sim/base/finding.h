@@ -42,6 +42,7 @@ struct SourcePosition {
 class SourceFiles {
  public:
   int Add(std::string name);
+  int size() const { return static_cast<int>(names_.size()); }
   const std::string& name(int file) const { return names_.at(static_cast<std::size_t>(file)); }
 
  private:

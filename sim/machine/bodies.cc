@@ -143,4 +143,22 @@ std::vector<LinkBody> MakeBodies(const Urdf& urdf, const std::string& path,
   return bodies;
 }
 
+std::vector<Visual> MakeVisuals(const Urdf& urdf, const std::string& path,
+                                Diagnostics* diagnostics) {
+  std::vector<Visual> visuals;
+  std::map<std::string, int> shapes_of_link;
+  for (const UrdfShape& shape : urdf.visuals) {
+    Diagnostics ignored;  // What a checker must know does not concern a picture.
+    LinkBody body = MakeBody(shape, path, &ignored);
+    if (body.mesh.triangles.empty()) {
+      diagnostics->Warning(path, shape.line, 0, body.defect + ": it is not shown");
+      continue;
+    }
+    const int number = ++shapes_of_link[shape.link];
+    visuals.push_back({number == 1 ? shape.link : shape.link + "/" + std::to_string(number),
+                       urdf.tree.FindLink(shape.link), std::move(body.mesh), shape.color});
+  }
+  return visuals;
+}
+
 }  // namespace ncsim::machine

@@ -3,8 +3,10 @@
 // to Diagnostics with file and line; a reader returns nullopt only when nothing useful is left.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/base/diagnostics.h"
 #include "sim/machine/job.h"
@@ -20,6 +22,17 @@ std::string FindModel(const std::string& name, const std::string& program_dir);
 /// Loads NAME.urdf with the NAME.srdf and NAME.toml beside it (each optional; its absence is a
 /// warning).
 std::optional<Machine> LoadMachine(const std::string& urdf_path, Diagnostics* diagnostics);
+
+/// What a link looks like. For pictures: nothing is checked against it.
+struct Visual {
+  std::string name;  ///< Link name; "link/2" for the second and later ones of a link.
+  int link = 0;
+  TriangleMesh mesh;             ///< In link coordinates, mm; it need not be closed.
+  std::array<float, 4> color{};  ///< Red, green, blue, opacity, 0 to 1; all 0 if not stated.
+};
+
+/// The visual shapes of a machine that has been loaded. Trouble is a warning.
+std::vector<Visual> LoadVisuals(const Machine& machine, Diagnostics* diagnostics);
 
 /// Loads a job file; an empty path gives the default job.
 std::optional<Job> LoadJob(const std::string& path, Diagnostics* diagnostics);

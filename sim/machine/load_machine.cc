@@ -237,4 +237,10 @@ std::optional<Machine> LoadMachine(const std::string& urdf_path, Diagnostics* di
   return machine;
 }
 
+std::vector<Visual> LoadVisuals(const Machine& machine, Diagnostics* diagnostics) {
+  Diagnostics known;  // LoadMachine has reported them.
+  const std::optional<Urdf> urdf = ReadUrdf(machine.path, &known);
+  return urdf ? MakeVisuals(*urdf, machine.path, diagnostics) : std::vector<Visual>();
+}
+
 }  // namespace ncsim::machine

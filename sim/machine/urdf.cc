@@ -137,6 +137,24 @@ void AddShapes(const Elements& elements, const UrdfSource::Link& link, const std
   }
 }
 
+/// What a link looks like, with its colour. What cannot be shown is passed over: it is not checked.
+void AddVisuals(const urdf::Link& parsed, const UrdfSource::Link& link,
+                std::vector<UrdfShape>* visuals) {
+  for (std::size_t i = 0; i < parsed.visual_array.size(); ++i) {
+    const urdf::Visual& visual = *parsed.visual_array[i];
+    UrdfShape shape;
+    shape.link = link.name;
+    shape.visual = true;
+    shape.line = i < link.visual_lines.size() ? link.visual_lines[i] : link.line;
+    shape.X_LG = ToIsometry(visual.origin);
+    if (visual.material) {
+      const urdf::Color& color = visual.material->color;
+      shape.color = {color.r, color.g, color.b, color.a};
+    }
+    if (FillShape(visual.geometry.get(), &shape)) visuals->push_back(std::move(shape));
+  }
+}
+
 }  // namespace
 
 std::optional<Urdf> ReadUrdf(const std::string& path, Diagnostics* diagnostics) {
@@ -163,6 +181,7 @@ std::optional<Urdf> ReadUrdf(const std::string& path, Diagnostics* diagnostics) 
     links.push_back({link.name, -1});
     const urdf::LinkConstSharedPtr parsed = model->getLink(link.name);
     if (!parsed) continue;
+    AddVisuals(*parsed, link, &urdf.visuals);
     if (!link.collision_lines.empty()) {
       AddShapes(parsed->collision_array, link, path, log, false, &urdf.shapes, diagnostics);
     } else {

@@ -2,6 +2,7 @@
 // A URDF as links, joints and shapes, in mm and rad. urdfdom stays behind it.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,7 +10,7 @@
 
 #include "kinematics/tree.h"
 #include "sim/base/diagnostics.h"
-#include "sim/machine/machine.h"
+#include "sim/machine/load.h"
 
 namespace ncsim::machine {
 
@@ -24,6 +25,7 @@ struct UrdfShape {
       Eigen::Vector3d::Zero();  ///< mm: box edges; cylinder radius, length; sphere radius.
   std::string uri;              ///< As written.
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< As written.
+  std::array<float, 4> color{};  ///< Of a visual: red, green, blue, opacity; all 0 if not stated.
 };
 
 struct Urdf {
@@ -32,7 +34,8 @@ struct Urdf {
   std::map<std::string, double>
       velocity;  ///< Moving joint -> mm/s or rad/s; 0 where the file says 0.
   std::map<std::string, int> joint_lines;
-  std::vector<UrdfShape> shapes;  ///< In the order of the file.
+  std::vector<UrdfShape> shapes;   ///< To be checked; in the order of the file.
+  std::vector<UrdfShape> visuals;  ///< To be shown; in the order of the file.
 };
 
 /// nullopt where no tree can be built (reported). A URDF with errors that leave a tree is returned.
@@ -46,5 +49,9 @@ std::string ResolveMeshUri(const std::string& uri, const std::string& urdf_path,
 /// reported at the shape's line.
 std::vector<LinkBody> MakeBodies(const Urdf& urdf, const std::string& path,
                                  Diagnostics* diagnostics);
+
+/// What is to be shown of each link, likewise; shapes that cannot be read are left out (reported).
+std::vector<Visual> MakeVisuals(const Urdf& urdf, const std::string& path,
+                                Diagnostics* diagnostics);
 
 }  // namespace ncsim::machine

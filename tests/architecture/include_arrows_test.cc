@@ -51,7 +51,8 @@ const std::vector<Library> kLibraries = {
     {"toml\\+\\+|toml\\.hpp", "sim/base", 1},
     {"xxhash", "sim/base", 1},
     {"CLI/", "sim/app", 1},
-    {"nlohmann/", "sim/report", 1},
+    {"nlohmann/", "sim/report", 3},
+    {"zlib", "sim/report", 1},
 };
 
 struct Include {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/report/page.h"
+
+#include "sim/report/packed.h"
+#include "sim/report/viewer.h"
+
+namespace ncsim::report {
+namespace {
+
+/// Text of an HTML element.
+std::string Escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      default:
+        escaped.push_back(static_cast<unsigned char>(c) < ' ' ? ' ' : c);
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+void WriteHtml(const Page& page, std::ostream& out) {
+  const std::string_view index = ViewerIndex();
+  std::size_t at = 0;
+  // index.html says where what goes: <!--ncsim:NAME-->.
+  const auto fill = [&](std::string_view name, std::string_view open, std::string_view content,
+                        std::string_view close) {
+    const std::string mark = "<!--ncsim:" + std::string(name) + "-->";
+    const std::size_t found = index.find(mark, at);
+    out << index.substr(at, found - at) << open << content << close;
+    at = found + mark.size();
+  };
+  fill("title", "<title>",
+       Escaped(std::string(ToString(page.result->verdict)) + ": " + page.result->program) +
+           " - ncsim",
+       "</title>");
+  fill("style", "<style>", ViewerStyle(), "</style>");
+  fill("three", "<script type=\"application/gzip\" id=\"three\">", Base64(Gzip(ViewerThree())),
+       "</script>");
+  fill("data", "<script type=\"application/gzip\" id=\"data\">", Base64(Gzip(PageData(page))),
+       "</script>");
+  fill("script", "<script>\n", ViewerScript(), "</script>");
+  out << index.substr(at);
+}
+
+}  // namespace ncsim::report
