@@ -148,6 +148,10 @@ std::string Bodies(const std::vector<std::string>& bodies) {
 
 }  // namespace
 
+int JudgedFinding::rank() const {
+  return finding.severity == "error" ? 0 : finding.severity == "unproven" ? 1 : 2;
+}
+
 int Row::exit_code() const {
   return verdict == "pass"        ? 0
          : verdict == "fail"      ? 1

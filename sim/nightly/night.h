@@ -20,6 +20,8 @@ struct JudgedFinding {
   bool is_new = false;                   ///< Was not there before.
 
   bool counts() const { return accepted == nullptr; }
+  /// 0 for an error, 1 for what is unproven, 2 for a warning.
+  int rank() const;
 };
 
 /// A pair that is closer than it was shown to stay before.

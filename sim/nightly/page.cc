@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <string_view>
+#include <utility>
 
 #include "sim/nightly/night.h"
 #include "sim/report/printable.h"
@@ -84,13 +86,11 @@ std::vector<std::string> Details(const Row& row) {
   std::vector<const JudgedFinding*> order;
   for (const JudgedFinding& judged : row.findings) order.push_back(&judged);
   std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
-    return a->is_new != b->is_new ? a->is_new : false;
+    return std::pair(!a->is_new, a->rank()) < std::pair(!b->is_new, b->rank());
   });
   for (std::size_t i = 0; i < std::min(order.size(), kMaxFindings); ++i) {
     const ReportFinding& finding = order[i]->finding;
-    const char* colour = finding.severity == "error"      ? "fail"
-                         : finding.severity == "unproven" ? "unproven"
-                                                          : "";
+    const char* colour = std::array{"fail", "unproven", ""}.at(order[i]->rank());
     std::string item = order[i]->is_new ? Tag("fail", "new") : "";
     if (!order[i]->counts()) item += Tag("pass", "accepted");
     item += Tag(colour, Html(finding.severity)) + Html(InALine(finding));
@@ -104,6 +104,21 @@ std::vector<std::string> Details(const Row& row) {
     items.push_back(Tag("pass", "fixed") + Html(InALine(finding)));
   }
   return items;
+}
+
+/// What the details are about: "collision, near-miss".
+std::string Subject(const Row& row) {
+  if (!row.report) return "why";
+  std::vector<std::string> rules;
+  const auto add = [&](const std::string& rule) {
+    if (std::find(rules.begin(), rules.end(), rule) == rules.end()) rules.push_back(rule);
+  };
+  for (const JudgedFinding& judged : row.findings) add(judged.finding.rule);
+  for (const ReportFinding& finding : row.fixed) add(finding.rule);
+  if (!row.falls.empty()) add("clearance");
+  std::string text;
+  for (const std::string& rule : rules) text += (text.empty() ? "" : ", ") + rule;
+  return Html(text);
 }
 
 void WriteRow(const Row& row, std::ostream& out) {
@@ -121,8 +136,7 @@ void WriteRow(const Row& row, std::ostream& out) {
   if (details.empty()) return;
   const bool open = !news.empty() || !row.trouble.empty();
   out << "<tr class=\"details\"><td></td><td colspan=\"6\"><details" << (open ? " open" : "")
-      << "><summary>" << details.size() << (details.size() == 1 ? " line" : " lines")
-      << "</summary>\n";
+      << "><summary>" << Subject(row) << "</summary>\n";
   WriteList(details, out);
   out << "</details></td></tr>\n";
 }

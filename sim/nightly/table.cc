@@ -55,14 +55,21 @@ void WriteLines(const char* what, const std::vector<std::string>& lines, std::os
 
 void WriteDetails(const Row& row, std::ostream& out) {
   WriteLines("", report::PrintableLines(row.trouble), out);
-  std::vector<std::string> old, fresh, fixed, falls;
+  std::vector<std::string> fresh, fixed, falls;
+  const JudgedFinding* worst = nullptr;  // Of those that were there before.
+  std::size_t stopping = 0;
   for (const JudgedFinding& judged : row.findings) {
-    if (judged.is_new) fresh.push_back(InALine(judged.finding));
-    const bool stops = judged.counts() && judged.finding.severity != "warning";
-    if (!judged.is_new && stops) old.push_back(InALine(judged.finding));
+    if (judged.is_new) {
+      fresh.push_back(InALine(judged.finding));
+    } else if (judged.counts() && judged.rank() < 2) {
+      if (worst == nullptr || judged.rank() < worst->rank()) worst = &judged;
+      ++stopping;
+    }
   }
-  if (old.size() > 1) old = {old.front() + " and " + std::to_string(old.size() - 1) + " more"};
-  WriteLines("", old, out);
+  if (worst != nullptr) {
+    out << "  " << InALine(worst->finding);
+    out << (stopping > 1 ? " and " + std::to_string(stopping - 1) + " more\n" : "\n");
+  }
   for (const ReportFinding& finding : row.fixed) fixed.push_back(InALine(finding));
   for (const Fall& fall : row.falls) falls.push_back(InALine(fall));
   WriteLines("new: ", fresh, out);
