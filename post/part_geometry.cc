@@ -9,9 +9,10 @@
 namespace ncsim::post {
 namespace {
 
-constexpr double kPole = 1e-8;    // rad
-constexpr double kLimit = 1e-9;   // rad: how exactly limits hold
-constexpr double kBranch = 1e-4;  // rad of tilt: nearer branches are at the pole
+constexpr double kPole = 1e-8;          // rad
+constexpr double kLimit = 1e-9;         // rad: how exactly limits hold
+constexpr double kBranch = 1e-4;        // rad of tilt: nearer branches are at the pole
+constexpr double kBesidePole = 0.0175;  // rad
 
 bool Within(const Rotary& rotary, const kinematics::RotaryLimits& limits) {
   for (std::size_t k = 0; k < 2; ++k) {
@@ -104,8 +105,13 @@ std::optional<PartGeometry::Way> PartGeometry::Follow(const Eigen::Vector3d& axi
 }
 
 std::optional<Rotary> PartGeometry::Between(const Eigen::Vector3d& axis_P, const Rotary& a,
-                                            const Rotary& b) const {
+                                            const Rotary& b, double pole_tolerance) const {
   const Rotary half{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+  const std::optional<Rotary> beside = BesidePole(axis_P, half[1]);
+  if (beside && Within(*beside, limits_) &&
+      AngleBetween(ToolAxis(*beside), axis_P) <= pole_tolerance) {
+    return beside;
+  }
   const std::vector<Rotary> reach = Reach(axis_P, half);
   if (reach.empty()) return std::nullopt;
   // They are on the same side of the pole, and that is told by the tilt.
@@ -122,6 +128,32 @@ bool PartGeometry::AtPole(const Eigen::Vector3d& axis_P) const {
   if (num_rotary() < 2) return false;
   const Eigen::Vector3d u_B = X_BP_.linear() * axis_P;
   return u_B.cross(five_axis_->rotary_direction(1)).norm() < kPole;
+}
+
+bool PartGeometry::OnCircle(const Rotary& a, const Rotary& b, double pole_limit) const {
+  kinematics::GreatCircle circle;
+  return kinematics::GreatCircle::Make(*five_axis_, a, b, &circle) ==
+             kinematics::GreatCircle::Fault::kNone &&
+         kinematics::AngleFromPole(*five_axis_, a, b) > pole_limit;
+}
+
+std::optional<Eigen::Vector3d> PartGeometry::Pole(const Eigen::Vector3d& axis_P) const {
+  if (num_rotary() < 2) return std::nullopt;
+  const Eigen::Vector3d pole = X_BP_.linear().transpose() * five_axis_->rotary_direction(1);
+  return pole.dot(axis_P) < 0.0 ? Eigen::Vector3d(-pole) : pole;
+}
+
+std::optional<Rotary> PartGeometry::BesidePole(const Eigen::Vector3d& axis_P, double second) const {
+  const std::optional<Eigen::Vector3d> pole = Pole(axis_P);
+  if (!pole || AngleBetween(*pole, axis_P) > kBesidePole) return std::nullopt;
+  const std::vector<Rotary> at_pole = ReachAnywhere(*pole, {0.0, second});
+  if (at_pole.empty()) return std::nullopt;
+  const double first = at_pole.front()[0];
+  // The tool axis leaves the pole along `way`, a radian each.
+  const Eigen::Vector3d way =
+      (ToolAxis({first + kBesidePole, second}) - ToolAxis({first - kBesidePole, second})) /
+      (2.0 * std::sin(kBesidePole));
+  return OnGrid({first + way.dot(axis_P) / way.squaredNorm(), second});
 }
 
 kinematics::JointVector PartGeometry::Joints(const Rotary& rotary) const {
@@ -158,6 +190,24 @@ Eigen::Matrix3d PartGeometry::Directions(PlanMode mode, const Eigen::Matrix3d* p
     directions.col(i) = Xyz(mode, plane_P, Eigen::Vector3d::Unit(i), rotary) - zero;
   }
   return directions;
+}
+
+std::optional<PartGeometry::Slow> PartGeometry::TooSlow(const PlanPose& a, const PlanPose& b,
+                                                        double time) const {
+  std::optional<Slow> slowest;
+  for (const machine::Axis& axis : machine_->axes) {
+    double way = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      if (axis.letter == "XYZ"[i]) way = std::abs(b.xyz[at] - a.xyz[at]);
+    }
+    for (std::size_t k = 0; k < num_rotary(); ++k) {
+      if (axis.letter == letters_[k]) way = std::abs(b.rotary[k] - a.rotary[k]);
+    }
+    if (!(axis.rapid > 0.0) || way <= time * axis.rapid) continue;
+    if (!slowest || way / axis.rapid > slowest->time) slowest = {axis.letter, way / axis.rapid};
+  }
+  return slowest;
 }
 
 Eigen::Vector3d PartGeometry::TipOfAxes(const Eigen::Vector3d& xyz, const Rotary& rotary) const {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,11 @@
 namespace ncsim::post {
 
 using Rotary = std::array<double, 2>;  ///< In FiveAxis::rotary() order, rad.
+
+/// rad, of two vectors.
+inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 class PartGeometry {
  public:
@@ -47,11 +53,21 @@ class PartGeometry {
   };
   std::optional<Way> Follow(const Eigen::Vector3d& axis_P, const Rotary& from,
                             double pole_tolerance) const;
-  /// The positions for a tool axis between those of a and b, which Follow() has joined.
-  std::optional<Rotary> Between(const Eigen::Vector3d& axis_P, const Rotary& a,
-                                const Rotary& b) const;
+  /// The positions for a tool axis between those of a and b, which Follow() has joined. Beside the
+  /// pole the second axis goes on in proportion where that leads the tool axis within
+  /// `pole_tolerance` (rad).
+  std::optional<Rotary> Between(const Eigen::Vector3d& axis_P, const Rotary& a, const Rotary& b,
+                                double pole_tolerance) const;
   /// The second axis is free: the tool axis is parallel to it, within half a millionth of a degree.
   bool AtPole(const Eigen::Vector3d& axis_P) const;
+  /// The tool axis that is parallel to the second axis, on the side of `axis_P`; none without one.
+  std::optional<Eigen::Vector3d> Pole(const Eigen::Vector3d& axis_P) const;
+  /// The position with the second axis at `second` that leads the tool axis nearest to `axis_P`, a
+  /// degree from the pole at most.
+  std::optional<Rotary> BesidePole(const Eigen::Vector3d& axis_P, double second) const;
+  /// The control that leads the tool axis on great circles leads it so from a to b: along the
+  /// branch they are on, no nearer to the pole than `pole_limit` (rad).
+  bool OnCircle(const Rotary& a, const Rotary& b, double pole_limit) const;
   /// The tool axis at rotary positions.
   Eigen::Vector3d ToolAxis(const Rotary& rotary) const;
 
@@ -62,6 +78,13 @@ class PartGeometry {
   /// What a displacement in P is in program coordinates, at fixed rotary positions: a rotation.
   Eigen::Matrix3d Directions(PlanMode mode, const Eigen::Matrix3d* plane_P,
                              const Rotary& rotary) const;
+  /// Which axis a feed of `time` (s) from a to b would need to be faster than it is, and the time
+  /// that it needs; none where all are fast enough. Of modes whose X, Y, Z are the machine's.
+  struct Slow {
+    char letter = ' ';
+    double time = 0.0;  ///< s
+  };
+  std::optional<Slow> TooSlow(const PlanPose& a, const PlanPose& b, double time) const;
   /// Where the tip is in P when X, Y, Z of kAxes and the rotary axes stand there.
   Eigen::Vector3d TipOfAxes(const Eigen::Vector3d& xyz, const Rotary& rotary) const;
 

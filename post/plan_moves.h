@@ -17,13 +17,17 @@ struct MoveFrame {
   const Eigen::Matrix3d* plane_P = nullptr;  ///< As PartGeometry::Xyz.
 };
 
+/// So near to the pole (rad) the tool axis is at it.
+inline double PoleTolerance(const PlanOptions& options) { return 0.5 * options.angle_tolerance; }
+
 PlanPose PoseAt(const PartGeometry& geometry, const MoveFrame& frame, const ClPose& pose,
                 const Rotary& rotary);
 
-/// The moves from `start` to `end` (P), with `feed`; the last ends at `end`. False where no
-/// subdivision keeps to the tolerances; `moves` is then not complete.
-bool FeedMoves(const PartGeometry& geometry, const PlanOptions& options, const MoveFrame& frame,
-               const ClPose& start, const Rotary& from, const ClPose& end, const Rotary& to,
-               const std::optional<ClArc>& arc, const ClFeed& feed, std::vector<PlanMove>* moves);
+/// The moves from `start` to `end` (P), with `feed`; the last ends at `end`. What cannot be done
+/// (no subdivision keeps to the tolerances), else ""; `moves` is then not complete.
+std::string FeedMoves(const PartGeometry& geometry, const PlanOptions& options,
+                      const MoveFrame& frame, const ClPose& start, const Rotary& from,
+                      const ClPose& end, const Rotary& to, const std::optional<ClArc>& arc,
+                      const ClFeed& feed, std::vector<PlanMove>* moves);
 
 }  // namespace ncsim::post

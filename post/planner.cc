@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSameAxis = 1e-7;  // rad
 constexpr double kSameRotary = 1e-9;
+constexpr double kRounding = 1e-3;  // of a time: inverse time is printed with three decimals
 
 bool SameAxis(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.cross(b).norm() < kSameAxis && a.dot(b) > 0.0;
@@ -96,6 +97,7 @@ class Planner::State {
   std::vector<Work> Collect(const Events& events);
   Eigen::Isometry3d FrameOf(const ClEvent& event);
   bool ModeFits(const Events& events, const std::vector<Work>& works, PlanMode mode);
+  void MeetPole(std::vector<Work>* works) const;
   PlanMode ModeOf(const std::vector<Work>& works) const;
   void BeginOperation(const Events& events, PlanMode mode, const std::optional<int>& next_tool);
   bool PlanSection(const Events& events, const std::vector<Work>& works, std::size_t first,
@@ -103,8 +105,10 @@ class Planner::State {
   const RotaryPath* Choose(const ClEvent& event, const std::vector<RotaryPath>& ways);
   void Index(const ClEvent& event, const Rotary& rotary, const ClPose& approach,
              PlanIndex::Why why);
-  void Rewind(const ClEvent& event, const ClPose& pose, const Rotary& to, const ClFeed& feed);
+  void Rewind(const ClEvent& event, const ClPose& pose, const Rotary& to, const Work& next,
+              bool in_rapid);
   bool Move(const ClEvent& event, const Work& work, const Rotary& to);
+  bool FastEnough(const ClEvent& event, const PlanPose& from, const PlanMove& move);
   void Pass(const Events& events, std::size_t end);
   void Error(const SourcePosition& where, std::string message) {
     diagnostics_->Error(name_, where.line, where.column, std::move(message));
@@ -172,6 +176,19 @@ std::vector<Work> Planner::State::Collect(const Events& events) {
   return works;
 }
 
+/// Tool axes that are at the pole but for the tolerance are there: the second axis stays.
+void Planner::State::MeetPole(std::vector<Work>* works) const {
+  const auto meet = [&](ClPose* pose) {
+    const auto pole = geometry_.Pole(pose->axis_M);
+    if (pole && AngleBetween(*pole, pose->axis_M) <= PoleTolerance(options_)) pose->axis_M = *pole;
+  };
+  for (Work& work : *works) {
+    if (work.start) meet(&*work.start);
+    meet(&work.end);
+    meet(&work.approach);
+  }
+}
+
 PlanMode Planner::State::ModeOf(const std::vector<Work>& works) const {
   if (options_.mode) return *options_.mode;
   for (const Work& work : works) {
@@ -200,6 +217,12 @@ bool Planner::State::ModeFits(const Events& events, const std::vector<Work>& wor
       return false;
     }
   }
+  if (options_.abilities[static_cast<std::size_t>(mode)].compensation) return true;
+  for (const ClEvent& event : events) {
+    if (event.modal->comp.side == cl::CutterComp::Side::kOff) continue;
+    Error(event.where, "the mode has no cutter compensation (CUTCOM)");
+    return false;
+  }
   return true;
 }
 
@@ -224,10 +247,11 @@ void Planner::State::Plan(const Events& events, const std::optional<int>& next_t
   if (events.empty()) return;
   passed_ = 0;
   section_ = 0;
-  const std::vector<Work> works = Collect(events);
+  std::vector<Work> works = Collect(events);
   if (!works.empty()) {
     const PlanMode mode = ModeOf(works);
     if (!ModeFits(events, works, mode)) return;
+    if (mode != PlanMode::kIndexed) MeetPole(&works);
     BeginOperation(events, mode, next_tool);
     if (mode != mode_) placed_ = false;
     mode_ = mode;
@@ -292,9 +316,10 @@ void Planner::State::Index(const ClEvent& event, const Rotary& rotary, const ClP
   placed_ = true;
 }
 
-/// Out of the part along the tool, the turn, and back to where it was.
+/// Out of the part along the tool, the turn, and back to where it was: with the feed of what comes
+/// next, or as the tool has come there in rapid.
 void Planner::State::Rewind(const ClEvent& event, const ClPose& pose, const Rotary& to,
-                            const ClFeed& feed) {
+                            const Work& next, bool in_rapid) {
   const ClPose clear{pose.tip_M + options_.rewind_retract * pose.axis_M, pose.axis_M};
   PlanMove out;
   out.rapid = true;
@@ -304,8 +329,10 @@ void Planner::State::Rewind(const ClEvent& event, const ClPose& pose, const Rota
   Index(event, to, clear, PlanIndex::Why::kRewind);
   PlanMove back;
   back.of_file = false;
-  back.feed = feed;
-  if (!feed.per_revolution && feed.value > 0.0) back.time = options_.rewind_retract / feed.value;
+  back.rapid = in_rapid;
+  back.feed = next.feed;
+  const bool timed = !next.feed.per_revolution && next.feed.value > 0.0;
+  if (timed) back.time = options_.rewind_retract / next.feed.value;
   back.end = PoseAt(geometry_, frame(), pose, to);
   Emit(event, back);
 }
@@ -336,14 +363,40 @@ bool Planner::State::Move(const ClEvent& event, const Work& work, const Rotary& 
     return true;
   }
   std::vector<PlanMove> moves;
-  if (!FeedMoves(geometry_, options_, frame(), *work.start, rotary_, work.end, to, work.arc,
-                 work.feed, &moves)) {
-    Error(event.where, "the tool axis cannot be led along here within " +
-                           Short(Degrees(options_.angle_tolerance)) + " deg");
+  const std::string problem = FeedMoves(geometry_, options_, frame(), *work.start, rotary_,
+                                        work.end, to, work.arc, work.feed, &moves);
+  if (!problem.empty()) {
+    Error(event.where, problem);
     return false;
   }
-  for (const PlanMove& move : moves) Emit(event, move);
+  PlanPose from = PoseAt(geometry_, frame(), *work.start, rotary_);
+  for (const PlanMove& move : moves) {
+    if (!FastEnough(event, from, move)) return false;
+    Emit(event, move);
+    from = move.end;
+  }
   return true;
+}
+
+bool Planner::State::FastEnough(const ClEvent& event, const PlanPose& from, const PlanMove& move) {
+  if (!options_.abilities[static_cast<std::size_t>(mode_)].rate_alarm || !(move.time > 0.0)) {
+    return true;
+  }
+  PlanPose to = move.end;
+  double time = move.time;
+  if (move.arc) {  // Each axis of the plane is as fast as the tip somewhere, on more than a
+                   // quarter.
+    to = from;
+    to.xyz += Eigen::Vector3d::Constant(move.feed.value * time);
+  }
+  const auto slow = geometry_.TooSlow(from, to, time * (1.0 + kRounding));
+  if (!slow) return true;
+  const double feed = 60.0 * move.feed.value * time / slow->time;
+  Error(event.where, "a feed of " + Short(std::round(60.0 * move.feed.value)) +
+                         " mm/min is more than axis " + std::string(1, slow->letter) +
+                         " can do here, and the control stops with an alarm: it can do " +
+                         Short(std::floor(feed)) + " mm/min");
+  return false;
 }
 
 bool Planner::State::PlanSection(const Events& events, const std::vector<Work>& works,
@@ -355,7 +408,7 @@ bool Planner::State::PlanSection(const Events& events, const std::vector<Work>& 
   for (std::size_t i = first; i < last; ++i) axes.push_back(works[i].end.axis_M);
   std::size_t unreachable = 0;
   const std::vector<RotaryPath> ways =
-      RankRotary(geometry_, axes, rotary_, 0.5 * options_.angle_tolerance, &unreachable);
+      RankRotary(geometry_, axes, rotary_, PoleTolerance(options_), &unreachable);
   const auto event_of = [&](std::size_t axis) -> const ClEvent& {
     return events[works[first + (axis == 0 ? 0 : axis - 1)].event];
   };
@@ -387,7 +440,8 @@ bool Planner::State::PlanSection(const Events& events, const std::vector<Work>& 
     Pass(events, work.event);
     const std::size_t axis = i - first;  // The one that the motion begins with.
     if (rewind != path.rewinds.end() && rewind->at == axis) {
-      Rewind(event, i == first ? begin : works[i - 1].end, path.rotary[axis], work.feed);
+      const bool in_rapid = i == first ? !goes_on : works[i - 1].rapid;
+      Rewind(event, i == first ? begin : works[i - 1].end, path.rotary[axis], work, in_rapid);
       ++rewind;
     }
     const Rotary to = start_of(axis + 1);

@@ -22,7 +22,10 @@ struct PlanAbilities {
   std::array<bool, 3> arcs{true, true, true};  ///< By PlanPlane.
   bool helices = true;                         ///< Arcs that leave their plane.
   bool holes = true;                           ///< Cycles.
-  bool great_circle = false;                   ///< The control leads the tool axis on one.
+  bool great_circle = false;  ///< The control leads the tool axis on one, told by its vector,
+  double pole_limit = 0.0;    ///< but nearer to the pole by its rotary axes in proportion; rad.
+  bool compensation = true;   ///< Cutter compensation.
+  bool rate_alarm = false;    ///< A feed that needs more than an axis's rate is an error.
 };
 
 struct PlanOptions {

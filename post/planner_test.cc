@@ -6,87 +6,14 @@
 
 #include <cmath>
 #include <random>
-#include <sstream>
 
-#include "post/cl_path.h"
+#include "post/test_planner.h"
 #include "post/tool_curve.h"
-#include "sim/base/units.h"
-#include "sim/machine/load.h"
-#include "sim/machine/scene.h"
 
 namespace ncsim::post {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double kDeg = kPi / 180.0;
-constexpr double kGrid = 0.001 * kDeg;
-
-struct Steps : PlanSink {
-  void OnStep(const PlanStep& step) override { steps.push_back(step); }
-  template <typename What>
-  std::vector<What> All() const {
-    std::vector<What> found;
-    for (const PlanStep& step : steps) {
-      if (const auto* what = std::get_if<What>(&step.what)) found.push_back(*what);
-    }
-    return found;
-  }
-  std::vector<PlanStep> steps;
-};
-
-/// A plan for a shipped machine, from the text of an NX file.
-class Plan {
- public:
-  explicit Plan(const std::string& model)
-      : machine_(
-            *machine::LoadMachine(std::string(NCSIM_SOURCE_DIR "/models/") + model, &diagnostics)),
-        geometry(machine_,
-                 machine::OffsetFrame(machine_, {{'X', -10.0}, {'Y', 20.0}, {'Z', -200.0}}),
-                 kGrid) {}
-
-  /// The events of `path` (the lines between LOAD/TOOL and END-OF-PATH).
-  const Steps& Make(const std::string& path) {
-    std::string text = "TOOL PATH/OP1,TOOL,BALL\nTLDATA/MILL,10,5,75,0,0\nMSYS/0,0,0,1,0,0,0,1,0\n";
-    text += "LOAD/TOOL,1\nFEDRAT/MMPM,600\n" + path + "END-OF-PATH\n";
-    steps = Steps();
-    Planner planner(geometry, options, "x.cls", &diagnostics, &steps);
-    ClPath cl(nc::Program::FromText("x.cls", text), 0, {}, &diagnostics);
-    for (ClEvent event; cl.Next(&event);) planner.Take(event);
-    choices = planner.choices();
-    return steps;
-  }
-  std::string FirstError() const {
-    for (const Diagnostic& diagnostic : diagnostics.all()) {
-      if (diagnostic.level == Diagnostic::Level::kError) return ToString(diagnostic);
-    }
-    return "";
-  }
-
-  Diagnostics diagnostics;
-
- private:
-  machine::Machine machine_;
-
- public:
-  PartGeometry geometry;
-  PlanOptions options;
-  Steps steps;
-  std::vector<PlanChoice> choices;
-};
-
-Eigen::Vector3d AxisOf(double b, double c) {
-  return {std::sin(b * kDeg) * std::cos(c * kDeg), std::sin(b * kDeg) * std::sin(c * kDeg),
-          std::cos(b * kDeg)};
-}
-
-std::string Goto(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis) {
-  std::ostringstream text;
-  text.precision(12);
-  text << std::fixed << "GOTO/" << tip.x() << "," << tip.y() << "," << tip.z() << "," << axis.x()
-       << "," << axis.y() << "," << axis.z() << "\n";
-  return text.str();
-}
 
 // Source paper 000, figure 10: the same tool axis by B82.875 with C180 or with C-180, or with B
 // turned the other way.

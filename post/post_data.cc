@@ -12,7 +12,7 @@ const std::array<BlockInfo, kBlocks>& BlockTable() {
       {"program_start", kGeneral, true},
       {"program_end", kGeneral, true},
       {"tool_table_head", kGeneral, false},
-      {"tool_table_row", kGeneral, false},
+      {"tool_table_row", kToolTable, false},
       {"tool_table_foot", kGeneral, false},
       {"tool_change", kToolChange, true},
       {"operation_start", kGeneral, false},

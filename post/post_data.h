@@ -93,7 +93,10 @@ struct PostMode {
     kTurned,  ///< Directions of the machine from P's zero where the table has carried it (G254).
     kPlane,   ///< The directions of PlanIndex::plane_P (CYCLE800, ROT).
   } frame = Frame::kTurned;           ///< Of kIndexed.
-  bool great_circle = false;          ///< kTcp: the control turns the tool axis on a great circle.
+  bool great_circle = false;          ///< kTcp: the control turns the tool axis on a great circle,
+  double pole_limit = 0.0;            ///< but nearer to the pole by the rotary axes; rad.
+  bool compensation = false;          ///< Cutter compensation.
+  bool rate_alarm = false;            ///< The control does not slow down where an axis is too slow.
   std::vector<PlanPlane> arc_planes;  ///< None: no arcs.
   bool helices = false;
   bool cycles = false;

@@ -6,6 +6,7 @@
 #include "post/toml_text.h"
 #include "sim/base/text.h"
 #include "sim/base/toml_reader.h"
+#include "sim/base/units.h"
 
 namespace ncsim::post {
 namespace {
@@ -344,6 +345,9 @@ class PostLoader {
                    : frame == "turned" ? PostMode::Frame::kTurned
                                        : PostMode::Frame::kPlane;
       mode.great_circle = one.Boolean("great_circle").value_or(false);
+      mode.pole_limit = Radians(one.Number("pole_limit", NumberRule::kNotNegative).value_or(0.0));
+      mode.compensation = one.Boolean("compensation").value_or(false);
+      mode.rate_alarm = one.Boolean("rate_alarm").value_or(false);
       LoadArcPlanes(&one, &mode);
       mode.helices = one.Boolean("helices").value_or(false);
       mode.cycles = one.Boolean("cycles").value_or(false);

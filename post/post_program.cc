@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <deque>
-#include <set>
+#include <map>
 #include <sstream>
+#include <string>
 #include <utility>
 
 namespace ncsim::post {
 namespace {
+
+/// Texts are in memory: some 400 MB of them.
+constexpr std::size_t kMostMoves = 10'000'000;
 
 /// The texts as they are written, and where in them each operation begins.
 class Recorder : public PlanSink {
@@ -17,6 +21,7 @@ class Recorder : public PlanSink {
       : writer_(*job.post, job.info, diagnostics, &Open(""), OpenerOf(job)) {}
 
   void OnStep(const PlanStep& step) override {
+    if (program_.moves > kMostMoves) return;
     writer_.OnStep(step);
     if (const auto* operation = std::get_if<PlanOperation>(&step.what)) {
       PostedOperation begun;
@@ -31,6 +36,8 @@ class Recorder : public PlanSink {
       ++program_.moves;
     }
   }
+
+  bool full() const { return program_.moves > kMostMoves; }
 
   PostedProgram Take(const std::vector<PlanChoice>& choices) {
     for (std::size_t i = 0; i < streams_.size(); ++i) {
@@ -68,10 +75,12 @@ class Recorder : public PlanSink {
 ClSummary ReadCl(const std::shared_ptr<const nc::Program>& cl, const ClOptions& options,
                  Diagnostics* diagnostics) {
   ClSummary summary;
-  std::set<std::pair<std::optional<int>, std::string>> known;
+  std::map<std::pair<std::optional<int>, std::string>, std::size_t> known;
+  SourcePosition loaded;
   ClPath path(cl, 0, options, diagnostics);
   for (ClEvent event; path.Next(&event);) {
     summary.operations = std::max(summary.operations, event.modal->operation->index);
+    if (std::holds_alternative<ClToolLoad>(event.what)) loaded = event.where;
     if (!std::holds_alternative<ClMotion>(event.what) &&
         !std::holds_alternative<ClHole>(event.what)) {
       continue;
@@ -79,9 +88,11 @@ ClSummary ReadCl(const std::shared_ptr<const nc::Program>& cl, const ClOptions& 
     ++summary.motions;
     const ClTool& tool = *event.modal->tool;
     // A number is a pocket of the machine, whatever the file calls the tool in it.
-    if (known.insert({tool.number, tool.number ? "" : tool.name}).second) {
-      summary.tools.push_back(tool);
-    }
+    const auto [found, first] =
+        known.insert({{tool.number, tool.number ? "" : tool.name}, summary.tools.size()});
+    if (first) summary.tools.push_back({tool, loaded.line > 0 ? loaded : event.where, false});
+    ToolUse& use = summary.tools[found->second];
+    use.compensated = use.compensated || event.modal->comp.side != cl::CutterComp::Side::kOff;
   }
   summary.unit = path.unit();
   return summary;
@@ -93,6 +104,10 @@ PostedProgram PostProgram(const PostJob& job, const PlanOptions& options,
   Planner planner(*job.geometry, options, job.cl->name(), diagnostics, &recorder);
   ClPath path(job.cl, 0, job.cl_options, diagnostics);
   for (ClEvent event; !diagnostics->has_errors() && path.Next(&event);) planner.Take(event);
+  if (recorder.full()) {
+    diagnostics->Error(job.cl->name(), 0, 0,
+                       "the program would have more than " + std::to_string(kMostMoves) + " moves");
+  }
   return recorder.Take(planner.choices());
 }
 

@@ -15,7 +15,7 @@ namespace ncsim::post {
 
 /// What is known of a cutter-location file before it is posted: one pass over it.
 struct ClSummary {
-  std::vector<ClTool> tools;  ///< In the order of their first motion.
+  std::vector<ToolUse> tools;  ///< In the order of their first motion.
   int operations = 0;
   std::size_t motions = 0;  ///< And holes.
   ClUnit unit = ClUnit::kMillimetre;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "post/tool_curve.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ncsim::post {
@@ -30,6 +31,11 @@ Eigen::Vector3d ToolCurve::Axis(double t) const {
   if (t <= 0.0) return start_.axis_M;
   if (t >= 1.0) return end_.axis_M;
   return (std::cos(t * turn_) * start_.axis_M + std::sin(t * turn_) * sideways_).normalized();
+}
+
+double ToolCurve::NearestTo(const Eigen::Vector3d& axis) const {
+  if (turn_ <= 0.0) return 0.0;
+  return std::clamp(std::atan2(sideways_.dot(axis), start_.axis_M.dot(axis)) / turn_, 0.0, 1.0);
 }
 
 ClPose Transformed(const Eigen::Isometry3d& X_PM, const ClPose& pose) {

@@ -17,6 +17,8 @@ class ToolCurve {
   /// t in [0, 1]; the ends are exact.
   Eigen::Vector3d Tip(double t) const;
   Eigen::Vector3d Axis(double t) const;  ///< Unit.
+  /// The t at which the tool axis is nearest to `axis`, which is on the same side.
+  double NearestTo(const Eigen::Vector3d& axis) const;
   double length() const { return length_; }
   /// rad: by how much the tool axis turns.
   double turn() const { return turn_; }

@@ -23,7 +23,8 @@ enum Scope : unsigned {
   kTextBlock = 1U << 6,
   kCodeBlock = 1U << 7,
   kFunction = 1U << 8,
-  kAll = (1U << 9) - 1,
+  kToolTable = 1U << 9,  ///< A row of it.
+  kAll = (1U << 10) - 1,
 };
 
 enum class ValueKind : std::uint8_t {

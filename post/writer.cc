@@ -191,9 +191,11 @@ void NcWriter::Start() {
 void NcWriter::WriteToolTable() {
   if (info_.tools.empty()) return;
   Emit(Block::kToolTableHead);
-  for (const ClTool& tool : info_.tools) {
-    TakeTool(tool);
+  for (const ToolUse& use : info_.tools) {
+    TakeTool(use.tool);
+    if (use.compensated) values_.Set(Value::kToolCompensation, "WEAR");
     Emit(Block::kToolTableRow);
+    values_.Clear(Value::kToolCompensation);
   }
   if (modal_) TakeTool(*modal_->tool);
   Emit(Block::kToolTableFoot);
@@ -203,7 +205,10 @@ void NcWriter::BeginFile() {
   const std::string name =
       info_.name + "_" + Fixed(values_.number(Value::kOperationNumber).value_or(0.0), 0);
   values_.Set(Value::kOperationFile, name);
-  Emit(Block::kCallOperation);
+  if (!Emit(Block::kCallOperation)) {
+    Problem("the post writes one file: it has no block 'call_operation'");
+    return;
+  }
   main_number_ = output_.next_number();
   std::ostream* file = open_operation_(name + data_.extension);
   if (file == nullptr) {

@@ -20,12 +20,19 @@
 
 namespace ncsim::post {
 
+/// What a file does with a tool.
+struct ToolUse {
+  ClTool tool;
+  SourcePosition where;      ///< Where it is loaded, or moves first.
+  bool compensated = false;  ///< It is moved with cutter compensation (CUTCOM).
+};
+
 struct ProgramInfo {
-  std::string name;           ///< Of the program, for its head and the names of its files.
-  std::optional<int> number;  ///< O number.
-  std::string source;         ///< Name of the cutter-location file.
-  std::string mode;           ///< Preferred among the modes of a kind; "" for the first.
-  std::vector<ClTool> tools;  ///< For the tool table, in the order of their first use.
+  std::string name;            ///< Of the program, for its head and the names of its files.
+  std::optional<int> number;   ///< O number.
+  std::string source;          ///< Name of the cutter-location file.
+  std::string mode;            ///< Preferred among the modes of a kind; "" for the first.
+  std::vector<ToolUse> tools;  ///< For the tool table, in the order of their first use.
 };
 
 class NcWriter : public PlanSink {

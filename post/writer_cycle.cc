@@ -7,6 +7,12 @@
 #include "post/writer.h"
 
 namespace ncsim::post {
+namespace {
+
+constexpr double kNoDepth = 1e-6;  // mm
+
+}  // namespace
+
 void NcWriter::Handle(const ClCycleOff&) { EndCycle(); }
 
 void NcWriter::EndCycle() {
@@ -23,13 +29,15 @@ void NcWriter::SetHole(const PlanHole& hole) {
   const double unit = data_.unit_mm(), sign = hole.negative ? -1.0 : 1.0;
   const int along = AxesOf(hole.plane).normal;
   const double point = hole.point.xyz[along];
+  // A cycle that has to end at its reference does nothing: then that is where the feed begins.
+  const double surface = cycle.bottom < -kNoDepth ? 0.0 : cycle.clearance;
   const bool to_clearance = hole.hole.level == ClHole::Level::kClearance;
   const double retract = to_clearance ? cycle.clearance : hole.hole.retract;
-  values_.Set(Value::kHoleReference, point / unit);
+  values_.Set(Value::kHoleReference, (point + sign * surface) / unit);
   values_.Set(Value::kHoleClearance, (point + sign * cycle.clearance) / unit);
-  values_.Set(Value::kHoleDistance, cycle.clearance / unit);
+  values_.Set(Value::kHoleDistance, (cycle.clearance - surface) / unit);
   values_.Set(Value::kHoleBottom, (point + sign * cycle.bottom) / unit);
-  values_.Set(Value::kHoleDepth, -cycle.bottom / unit);
+  values_.Set(Value::kHoleDepth, (surface - cycle.bottom) / unit);
   values_.Set(Value::kHoleRetract, (point + sign * retract) / unit);
   SetSteps(cycle.steps);
   values_.Clear(Value::kHolePitch);

@@ -161,6 +161,16 @@ TEST(WriterCycleTest, AModalCallAndItsPositions) {
   EXPECT_EQ(AllOf(plan.diagnostics), "");
 }
 
+TEST(WriterCycleTest, AHoleThatEndsAtItsPointBeginsAtTheClearance) {
+  // A control has nothing to drill between RFP and an equal depth.
+  TestPlan plan;
+  const auto touch = Drill();
+  touch->bottom = 0.0;
+  plan.Begin(PlanMode::kIndexed, Pose(0, 0, 10)).Add(Hole(touch, Pose(5, 0, 0), 10.0));
+  EXPECT_THAT(plan.Write(ShippedPost(kBcTable), {}, "three"),
+              ::testing::Contains("MCALL CYCLE81(10.,2.,0.,0.)"));
+}
+
 TEST(WriterCycleTest, DeepHolesAndTapsOfThe840D) {
   const auto deep = Drill();
   deep->kind = ClCycleKind::kDeep;

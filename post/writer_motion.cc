@@ -154,7 +154,10 @@ void NcWriter::Line(const PlanMove& move) {
   const bool turns = Turns(move.end);
   for (std::size_t k = 0; k < 2; ++k) {
     const WordFormat* word = data_.FindWord(kRotary[k]);
-    if (word != nullptr && word->wrap && std::abs(move.end.rotary[k] - pose_.rotary[k]) >= kPi) {
+    const BlockTemplate* block = data_.Find(Block::kLine, mode_);
+    const bool printed = block != nullptr && block->Uses(kRotary[k]);
+    if (word != nullptr && printed && word->wrap &&
+        std::abs(move.end.rotary[k] - pose_.rotary[k]) >= kPi) {
       Problem(word->name +
               " turns by 180 degrees or more in a block, and the control goes the "
               "shortest way");

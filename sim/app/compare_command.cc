@@ -2,6 +2,7 @@
 #include "sim/app/compare_command.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -179,13 +180,17 @@ class Comparing {
 
   bool Follow(Side* side) { return side->cl ? FollowCl(side) : FollowNc(side); }
 
-  bool FollowCl(Side* side) {
-    Diagnostics diagnostics;
+  post::ClOptions ClOptionsOf() const {
     post::ClOptions options;
     options.need_tool = false;  // Tools are not compared.
     options.unit = options_.cl.unit;
     options.flavour = options_.cl.flavour;
-    post::ClPath path(side->program, files_.Add(side->name), options, &diagnostics);
+    return options;
+  }
+
+  bool FollowCl(Side* side) {
+    Diagnostics diagnostics;
+    post::ClPath path(side->program, files_.Add(side->name), ClOptionsOf(), &diagnostics);
     compare::ClToolpath toolpath(compare::ChordErrorFor(result_.tolerances));
     for (post::ClEvent event; path.Next(&event); ++side->report.blocks) toolpath.OnEvent(event);
     if (!Fine(diagnostics)) return false;
@@ -198,16 +203,40 @@ class Comparing {
     return Complain(side.name + ": error: the program moves no axis: there is nothing to compare");
   }
 
+  /// A cutter-location file in which cutter compensation is on.
+  bool Compensates(const Side& side) const {
+    if (!side.cl || side.program->text().find("CUTCOM") == std::string_view::npos) return false;
+    Diagnostics diagnostics;
+    post::ClPath path(side.program, 0, ClOptionsOf(), &diagnostics);
+    for (post::ClEvent event; path.Next(&event);) {
+      if (event.modal->comp.side != post::cl::CutterComp::Side::kOff) return true;
+    }
+    return false;
+  }
+
   bool FollowNc(Side* side) {
-    const machine::ToolTable tools = FindTools(*side->machine, side->job, *side->program);
+    machine::ToolTable tools = FindTools(*side->machine, side->job, *side->program);
+    const Side& other = side == &tested_ ? reference_ : tested_;
+    const bool wear = !side->job.has_tools && Compensates(other);
+    if (wear) {
+      for (machine::Tool& tool : tools.tools) tool.d_geometry = 0.0;
+    }
     std::vector<control::PartFrame> part_frames;
     compare::NcPath path(*side->machine, tools, part_frames,
-                         compare::ChordErrorFor(result_.tolerances));
+                         compare::ChordErrorFor(result_.tolerances), side->increments.position);
     const control::RunSummary summary = control::RunProgram(
         side->program, *side->machine, side->job, tools, &files_, &part_frames, &path);
     side->report.frame = path.frame();
     side->report.blocks = summary.blocks;
     side->report.assumptions = summary.assumptions;
+    if (wear) {
+      side->report.assumptions.push_back(
+          {"cutter compensation",
+           "the radius in D of each tool is its wear alone, taken as 0, for the points of " +
+               std::filesystem::path(other.name).filename().string() +
+               " are those of the tool's centre",
+           true, false});
+    }
     side->findings = path.TakeFindings();
     side->path = path.Take();
     if (path.motions() == 0 && side->findings.empty()) return Motionless(*side);

@@ -86,9 +86,13 @@ class Posting {
     *err_ << message << "\n";
     return false;
   }
-  /// False where there are errors.
+  /// False where there are errors; these come first.
   bool Say(const Diagnostics& diagnostics) {
-    for (const Diagnostic& diagnostic : diagnostics.all()) Complain(ToString(diagnostic));
+    for (const Diagnostic::Level level : {Diagnostic::Level::kError, Diagnostic::Level::kWarning}) {
+      for (const Diagnostic& diagnostic : diagnostics.all()) {
+        if (diagnostic.level == level) Complain(ToString(diagnostic));
+      }
+    }
     return !diagnostics.has_errors();
   }
 
@@ -155,6 +159,15 @@ class Posting {
     cl_options_.first_tool = options_.first_tool;
     summary_ = post::ReadCl(cl_, cl_options_, &diagnostics_);
     if (diagnostics_.has_errors()) return Say(diagnostics_) && false;
+    const int pockets = machine_->control.tool_pockets;
+    for (const post::ToolUse& use : summary_.tools) {
+      const int number = use.tool.number.value_or(0);
+      if (pockets == 0 || number <= pockets) continue;
+      diagnostics_.Error(options_.cl_file, use.where.line, use.where.column,
+                         "T" + std::to_string(number) + ": the tool changer of " + machine_->name +
+                             " has " + std::to_string(pockets) + " pockets");
+    }
+    if (diagnostics_.has_errors()) return Say(diagnostics_) && false;
     if (summary_.motions > 0) return true;
     return Complain(options_.cl_file + ": error: the file moves no tool: there is nothing to post");
   }
@@ -196,16 +209,31 @@ class Posting {
   void HoldTools() {
     if (!job_.has_tools) return;
     const machine::ToolTable table{job_.tools};
-    for (const post::ClTool& tool : summary_.tools) {
-      if (!tool.number || !tool.diameter) continue;
-      const std::string name = "T" + std::to_string(*tool.number);
-      const machine::Tool* stated = table.Find(*tool.number);
-      if (stated == nullptr || std::abs(stated->diameter - *tool.diameter) <= kSameDiameter)
-        continue;
-      diagnostics_.Warning(job_.path, 0, 0,
-                           name + " cuts " + Short(stated->diameter) + " mm wide in the job, and " +
-                               Short(*tool.diameter) + " mm in " + options_.cl_file);
+    for (const post::ToolUse& use : summary_.tools) {
+      if (!use.tool.number) continue;
+      const std::string name = "T" + std::to_string(*use.tool.number);
+      const machine::Tool* stated = table.Find(*use.tool.number);
+      if (stated == nullptr) continue;
+      const double width = use.tool.diameter.value_or(stated->diameter);
+      if (std::abs(stated->diameter - width) > kSameDiameter) {
+        diagnostics_.Warning(job_.path, 0, 0,
+                             name + " cuts " + Short(stated->diameter) +
+                                 " mm wide in the job, and " + Short(width) + " mm in " +
+                                 options_.cl_file);
+      }
+      if (use.compensated && HasRadius(*stated)) {
+        diagnostics_.Warning(job_.path, 0, 0,
+                             "D of " + name + " has the tool's radius, and the points of " +
+                                 options_.cl_file + " are those of its centre: d_geometry = 0");
+      }
     }
+  }
+
+  /// In a register of the control.
+  static bool HasRadius(const machine::Tool& tool) {
+    if (tool.edges.empty()) return tool.d_geometry != 0.0;
+    return std::any_of(tool.edges.begin(), tool.edges.end(),
+                       [](const machine::ToolEdge& edge) { return edge.diameter != 0.0; });
   }
 
   post::PlanOptions PlanOptions() const {

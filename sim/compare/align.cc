@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kFarthest = 400;
 /// Pairs of runs of a block that are weighed against each other.
 constexpr std::size_t kMostPairs = 1'000'000;
+/// Runs of each that may be alike as a whole.
+constexpr std::size_t kWhole = 16;
 
 /// Of two runs, in radii: the mean of what their ends are apart, far ones alike.
 double Strangeness(const Run& a, const Run& b, const Radii& radii) {
@@ -51,6 +53,28 @@ Skip NextAlike(const std::vector<Run>& a, const std::vector<Run>& b, std::size_t
   return {rest_a, rest_b};
 }
 
+/// Runs from (i, j) on that begin and end alike as a whole, more of the one than of the other: a
+/// rewind has come between. {0, 0} where there are none.
+Skip AlikeAsWhole(const std::vector<Run>& a, const std::vector<Run>& b, std::size_t i,
+                  std::size_t j, const Radii& radii) {
+  if (i >= a.size() || j >= b.size()) return {};
+  if (!Within(a[i].vertices.front(), b[j].vertices.front(), radii)) return {};
+  const std::size_t most_a = std::min(kWhole, a.size() - i),
+                    most_b = std::min(kWhole, b.size() - j);
+  for (std::size_t sum = 3; sum <= most_a + most_b; ++sum) {
+    for (std::size_t x = sum > most_b ? sum - most_b : 1; x <= std::min(most_a, sum - 1); ++x) {
+      const std::size_t y = sum - x;
+      if (x == y) continue;
+      if (!Within(a[i + x - 1].vertices.back(), b[j + y - 1].vertices.back(), radii)) continue;
+      const bool end = i + x == a.size() && j + y == b.size();
+      const bool goes_on = i + x < a.size() && j + y < b.size() &&
+                           Within(a[i + x].vertices.front(), b[j + y].vertices.front(), radii);
+      if (end || goes_on) return {x, y};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 bool SameEnds(const Run& a, const Run& b, const Radii& radii) {
@@ -67,7 +91,8 @@ std::vector<Block> Align(const std::vector<Run>& a, const std::vector<Run>& b, c
       ++i, ++j;
       continue;
     }
-    const Skip skip = NextAlike(a, b, i, j, radii);
+    Skip skip = AlikeAsWhole(a, b, i, j, radii);
+    if (skip.a == 0) skip = NextAlike(a, b, i, j, radii);
     blocks.push_back({i, i + skip.a, j, j + skip.b, false});
     i += skip.a;
     j += skip.b;

@@ -155,8 +155,16 @@ class Comparer {
     return blame;
   }
 
+  /// A feed that is shorter than the tolerance: where points are rounded it may fall away.
+  bool AtOnePlace(const Run& run) const {
+    return std::all_of(run.vertices.begin(), run.vertices.end(), [&](const Pose& pose) {
+      return Within(run.vertices.front(), pose, radii_);
+    });
+  }
+
   void Lost(std::size_t i) {
     const Run& run = a_.runs[i];
+    if (AtOnePlace(run)) return;
     Fault fault;
     fault.rule = Rule::kFeedLost;
     fault.tested = last_b_;
@@ -168,6 +176,7 @@ class Comparer {
 
   void Extra(std::size_t j) {
     const Run& run = b_.runs[j];
+    if (AtOnePlace(run)) return;
     Fault fault;
     fault.rule = Rule::kFeedExtra;
     fault.message = "a feed that " + log_.Place({file_a(), 0, 0}) + " does not have";

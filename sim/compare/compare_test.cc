@@ -32,11 +32,11 @@ class Path {
     builder_.Rapid(Next(), end);
     return *this;
   }
-  Path& Feed(const Pose& end, double feed = 10.0) {
+  Path& Feed(const Pose& end, double feed = 10.0, double slack = 0.0) {
     const Pose from = builder_.pose();
     Curve line;
     line.at = [&](double s) { return Lerp(from, end, s); };
-    builder_.Feed(Next(), feed, line);
+    builder_.Feed(Next(), feed, line, slack);
     return *this;
   }
   Path& Feeds(const Points& points) {
@@ -203,6 +203,47 @@ TEST_F(CompareTest, ARewindIsAdded) {
       Rules(Hold(old,
                  New().Rapid(At(0, 0, 0, 30)).Feed(at).Feed(in).Feed(at).Feed(At(20, 0, 0, 30)))),
       ElementsAre("feed-extra@3"));
+}
+
+// Each run of the old program is two of the new one, which comes back with a feed.
+TEST_F(CompareTest, ARewindInEachRun) {
+  const auto old = [] {
+    Path path = Old();
+    for (const double y : {0.0, 50.0}) {
+      path.Rapid(At(0, y, 40)).Rapid(At(0, y, 0)).Feed(At(10, y, 0)).Feed(At(20, y, 0));
+    }
+    return path.Rapid(At(20, 50, 40));
+  };
+  Path tested = New();
+  for (const double y : {0.0, 50.0}) {
+    tested.Rapid(At(0, y, 40)).Rapid(At(0, y, 0)).Feed(At(10, y, 0)).Rapid(At(10, y, 40));
+    tested.Rapid(At(0, 0, 200)).Rapid(At(10, y, 40)).Feed(At(10, y, 0)).Feed(At(20, y, 0));
+  }
+  const Comparison held = Hold(old(), tested.Rapid(At(20, 50, 40)));
+  EXPECT_THAT(Rules(held), IsEmpty());
+  EXPECT_EQ(held.runs, 2u);
+  EXPECT_FALSE(held.added.empty());
+}
+
+TEST_F(CompareTest, AFeedThatIsShorterThanTheToleranceMayFallAway) {
+  const auto path = [](Path start, double z) {
+    start.Rapid(At(0, 0, 5)).Feed(At(9, 0, 5)).Rapid(At(20, 0, 5));
+    if (z > 0.0) start.Feed(At(20, 0, 5.0 - z));
+    return start.Rapid(At(40, 0, 5)).Feed(At(50, 0, 5));
+  };
+  EXPECT_THAT(Rules(Hold(path(Old(), 0.002), path(New(), 0.0))), IsEmpty());
+  EXPECT_THAT(Rules(Hold(path(Old(), 0.0), path(New(), 0.002))), IsEmpty());
+  EXPECT_THAT(Rules(Hold(path(Old(), 0.02), path(New(), 0.0))), ElementsAre("feed-lost@2"));
+}
+
+// Way by time: of a short block the ends are rounded.
+TEST_F(CompareTest, AFeedThatATimeTellsIsAsExactAsItsEnds) {
+  const auto path = [](Path start, double feed, double slack) {
+    return start.Rapid(At(0, 0, 0)).Feed(At(0.1, 0, 0), feed, slack);
+  };
+  EXPECT_THAT(Rules(Hold(path(Old(), 10.0, 0.0), path(New(), 10.2, 0.2))), IsEmpty());
+  EXPECT_THAT(Rules(Hold(path(Old(), 10.0, 0.0), path(New(), 10.2, 0.0))),
+              ElementsAre("feed-rate@2"));
 }
 
 TEST_F(CompareTest, APathWithoutFeedsIsEqualToItself) {

@@ -94,10 +94,11 @@ void FaultLog::Agree() {
   run_.Close(&findings_);
 }
 
-void FaultLog::Feed(const SourcePosition& tested, const SourcePosition& reference, double feed,
-                    double wanted) {
+void FaultLog::Feed(const Piece& tested_piece, const Piece& reference_piece) {
+  const double feed = tested_piece.feed, wanted = reference_piece.feed;
+  const SourcePosition &tested = tested_piece.where, &reference = reference_piece.where;
   if (!(feed > 0.0) || !(wanted > 0.0)) return;
-  const double off = std::abs(feed - wanted);
+  const double off = std::abs(feed - wanted) - tested_piece.slack - reference_piece.slack;
   if (off <= std::max(tolerances_.feed_ratio * wanted, tolerances_.feed_resolution)) {
     feed_run_.Close(&findings_);
     return;

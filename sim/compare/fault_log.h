@@ -8,6 +8,7 @@
 
 #include "sim/base/run_finding.h"
 #include "sim/compare/pose.h"
+#include "sim/compare/toolpath.h"
 
 namespace ncsim::compare {
 
@@ -42,9 +43,8 @@ class FaultLog {
   void Add(const Fault& fault);
   /// The programs agree on the way of a feed: an open fault has ended.
   void Agree();
-  /// The feeds (mm/s) of a stretch; equal ones end an open fault.
-  void Feed(const SourcePosition& tested, const SourcePosition& reference, double feed,
-            double wanted);
+  /// The feeds of a stretch; equal ones end an open fault.
+  void Feed(const Piece& tested, const Piece& reference);
   std::vector<Finding> Take();
 
   /// "dome.nc:120", without the folder.

@@ -39,8 +39,12 @@ std::vector<double> Nears(const Run& run, const Pose& pose, double from, std::si
     const Eigen::Vector3d way = end.p - begin.p;
     const double square = way.squaredNorm();
     const double foot = square > 0.0 ? way.dot(pose.p - begin.p) / square : near.lower;
+    // Not at the very edge of what is near, from which no way may lead on.
+    const double aside = foot < near.lower || foot > near.upper ? 0.25 : 0.0;
+    const double margin = aside * (near.upper - near.lower);
     const double place =
-        std::max(from, static_cast<double>(chord) + std::clamp(foot, near.lower, near.upper));
+        std::max(from, static_cast<double>(chord) +
+                           std::clamp(foot, near.lower + margin, near.upper - margin));
     const bool goes_on = touching && near.lower == 0.0;
     touching = near.upper == 1.0;
     // The way that has just been left is not a new one.

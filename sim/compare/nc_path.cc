@@ -106,15 +106,23 @@ double Way(const Curve& curve, const Motion& motion) {
   return way;
 }
 
-/// Speed of the tip in the part. Without TCP, and with rotary axes moving, F counts another way:
-/// there the time of the block says it.
-double TipFeed(const Curve& curve, const Motion& motion) {
+/// Speed of the tip in the part, mm/s; 0 where it is not known.
+struct TipFeed {
+  double value = 0.0;
+  double slack = 0.0;  ///< As Piece.
+};
+
+/// Without TCP, and with rotary axes moving, F counts another way: there the time of the block says
+/// it.
+TipFeed FeedOf(const Curve& curve, const Motion& motion, double increment) {
   const double way = Way(curve, motion);
-  if (way < kLeastWay) return 0.0;
+  if (way < kLeastWay) return {};
   const bool by_time =
       curve.bend.axis > 0.0 && !std::holds_alternative<motion::TcpCurve>(motion.path);
-  if (!by_time) return motion.facts.feed;
-  return motion.duration > 0.0 ? way / motion.duration : 0.0;
+  if (!by_time) return {motion.facts.feed, 0.0};
+  if (!(motion.duration > 0.0)) return {};
+  // Both ends are rounded in X, Y and Z: by half a diagonal at most.
+  return {way / motion.duration, std::sqrt(3.0) * increment / motion.duration};
 }
 
 }  // namespace
@@ -131,8 +139,13 @@ Curve CurveInTable(const kinematics::FiveAxis& metal, const Motion& motion, doub
 }
 
 NcPath::NcPath(const machine::Machine& machine, const machine::ToolTable& tools,
-               const std::vector<control::PartFrame>& part_frames, const Distance& chord_error)
-    : machine_(&machine), tools_(&tools), part_frames_(&part_frames), builder_(chord_error) {}
+               const std::vector<control::PartFrame>& part_frames, const Distance& chord_error,
+               double increment)
+    : machine_(&machine),
+      tools_(&tools),
+      part_frames_(&part_frames),
+      builder_(chord_error),
+      increment_(increment) {}
 
 void NcPath::OnFinding(Finding finding) {
   if (finding.severity != Severity::kWarning) findings_.push_back(std::move(finding));
@@ -153,14 +166,14 @@ void NcPath::OnMotion(const Motion& motion) {
 void NcPath::AddFeed(const Motion& motion, double length) {
   if (frame_ < 0) frame_ = motion.facts.offset;
   const Curve curve = CurveInTable(*machine_->five_axis, motion, length);
-  const double feed = TipFeed(curve, motion);
+  const TipFeed feed = FeedOf(curve, motion, increment_);
   const double begin = CycleBegin(motion, curve);
   if (begin >= 1.0) return builder_.Rapid(motion.where, curve.at(1.0));
-  if (begin <= 0.0) return builder_.Feed(motion.where, feed, curve);
+  if (begin <= 0.0) return builder_.Feed(motion.where, feed.value, curve, feed.slack);
   builder_.Rapid(motion.where, curve.at(begin));
   Curve rest = curve;
   rest.at = [&curve, begin](double s) { return curve.at(begin + s * (1.0 - begin)); };
-  builder_.Feed(motion.where, feed, rest);
+  builder_.Feed(motion.where, feed.value, rest, feed.slack);
 }
 
 /// The part of a straight feed of a canned cycle that goes where the same hole has been fed

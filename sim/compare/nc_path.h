@@ -18,9 +18,11 @@ Curve CurveInTable(const kinematics::FiveAxis& metal, const motion::Motion& moti
 /// Collects what a run sends. The pecks of a canned cycle count as one feed to its depth.
 class NcPath : public control::RunSink {
  public:
-  /// All outlive this; the machine must have five_axis.
+  /// All outlive this; the machine must have five_axis. `increment`: what the program's coordinates
+  /// are rounded to, mm.
   NcPath(const machine::Machine& machine, const machine::ToolTable& tools,
-         const std::vector<control::PartFrame>& part_frames, const Distance& chord_error);
+         const std::vector<control::PartFrame>& part_frames, const Distance& chord_error,
+         double increment);
 
   void OnMotion(const motion::Motion& motion) override;
   /// Errors and what is not proven are kept; warnings are `check`'s matter.
@@ -42,6 +44,7 @@ class NcPath : public control::RunSink {
   const machine::ToolTable* tools_;
   const std::vector<control::PartFrame>* part_frames_;
   ToolpathBuilder builder_;
+  double increment_;
   std::vector<Finding> findings_;
   std::uint64_t motions_ = 0;
   int frame_ = -1;

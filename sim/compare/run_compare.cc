@@ -73,7 +73,7 @@ void RunCompare::Measure(const Run& reference, const Run& tested, const std::vec
       const Piece& b = (*parts_.tested)[piece_b];
       if (a.rapid == b.rapid) {
         parts_.log->Agree();
-        parts_.log->Feed(b.where, a.where, b.feed, a.feed);
+        parts_.log->Feed(b, a);
       } else {
         ReportRapid(a, b);
       }

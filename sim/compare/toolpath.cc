@@ -31,7 +31,8 @@ void ToolpathBuilder::AddVertex(const Pose& pose) {
   run.pieces.push_back(static_cast<std::uint32_t>(path_.pieces.size() - 1));
 }
 
-void ToolpathBuilder::Feed(const SourcePosition& where, double feed, const Curve& curve) {
+void ToolpathBuilder::Feed(const SourcePosition& where, double feed, const Curve& curve,
+                           double slack) {
   double chords = std::max({1.0, ChordsFor(curve.bend.position, wanted_.position),
                             ChordsFor(curve.bend.axis, wanted_.axis)});
   if (!(chords <= kMostChords)) chords = kMostChords;
@@ -42,7 +43,7 @@ void ToolpathBuilder::Feed(const SourcePosition& where, double feed, const Curve
     path_.runs.emplace_back();
     path_.runs.back().vertices.push_back(curve.at(0.0));
   }
-  path_.pieces.push_back({where, feed, false});
+  path_.pieces.push_back({where, feed, slack, false});
   const auto count = static_cast<int>(chords);
   for (int i = 1; i <= count; ++i) AddVertex(curve.at(static_cast<double>(i) / chords));
   pose_ = curve.at(1.0);

@@ -17,6 +17,7 @@ namespace ncsim::compare {
 struct Piece {
   SourcePosition where;
   double feed = 0.0;   ///< mm/s of the tip against the part, as programmed; 0: not known.
+  double slack = 0.0;  ///< mm/s: what the rounding of its ends makes of a feed that a time tells.
   bool rapid = false;  ///< Not a feed: the straight way over a gap that has been closed.
 };
 
@@ -65,7 +66,7 @@ class ToolpathBuilder {
   explicit ToolpathBuilder(const Distance& chord_error) : wanted_(chord_error) {}
 
   /// A feed from where the tool stands.
-  void Feed(const SourcePosition& where, double feed, const Curve& curve);
+  void Feed(const SourcePosition& where, double feed, const Curve& curve, double slack = 0.0);
   void Rapid(const SourcePosition& where, const Pose& end);
   void ToolChange() { path_.gaps.back().tool_change = true; }
   void Dwell(const SourcePosition& where) { path_.dwells.push_back(where); }

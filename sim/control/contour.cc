@@ -31,6 +31,8 @@ void Contour::SetPosition(const AxisValues& start) {
   state_->comp.SetPosition(start);
 }
 
+void Contour::LookAhead(bool on) { state_->comp.set_look_ahead(on); }
+
 void Contour::Push(const Command& command) { state_->corners.Push(command); }
 
 void Contour::Flush() {

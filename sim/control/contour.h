@@ -17,7 +17,8 @@ struct ContourOptions {
   bool type_b = false;        ///< Setting 43.
   bool fanuc_corners = true;  ///< Setting 58: FANUC (true) or YASNAC.
   double least_arc_feed =
-      1.0;  ///< Setting 44 / 100: how far the feed falls in a compensated inside arc.
+      1.0;                ///< Setting 44 / 100: how far the feed falls in a compensated inside arc.
+  bool long_lead = true;  ///< What turns compensation on and off is as long as the radius.
   CornerNames corner_names;
 };
 
@@ -42,6 +43,8 @@ class Contour {
   /// M00, M01, M02 or M30 at `where`: Flush, and a control-alarm if compensation is still
   /// `commanded` (G41 or G42 in force).
   void Stop(const SourcePosition& where, bool commanded);
+  /// Whether compensation looks for bottlenecks beyond the corner of two moves; it does at first.
+  void LookAhead(bool on);
   /// Where the tool is after Flush(), in program coordinates: beside the programmed position while
   /// compensation is active.
   AxisValues position() const;

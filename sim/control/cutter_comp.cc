@@ -283,7 +283,7 @@ void CutterComp::Finish(const CompJoint& joint, const Command& next) {
                     std::copysign((joint.first_along - pending_->edge.start_along) / ideal.radius,
                                   ideal.sweep))
               : Curve::Line(pending_->start, joint.first_end);
-      CheckLookAhead(actual, last);
+      if (look_ahead_) CheckLookAhead(actual, last);
     }
     SendEdge(joint.first_end, joint.first_along);
   }
@@ -381,7 +381,7 @@ void CutterComp::CheckLookAhead(const Curve& actual, bool last) {
 // The manual forbids it and does not say what the control does.
 void CutterComp::CheckLength(const Command& command, double offset, const char* what) {
   const double length = (XY(command.end) - ProgrammedXY()).norm();
-  if (length >= std::abs(offset) - kOvercut) return;
+  if (!options_.long_lead || length >= std::abs(offset) - kOvercut) return;
   report_(MakeFinding(Rule::kUnsupportedCode, command.where,
                       std::string("cutter compensation of ") + Short(std::abs(offset)) +
                           " mm is turned " + what + " in a move of " + Short(length) +

@@ -34,6 +34,7 @@ class CutterComp {
   CutterComp(const ContourOptions& options, Out out, Report report);
 
   void SetPosition(const AxisValues& start) { programmed_ = start; }
+  void set_look_ahead(bool on) { look_ahead_ = on; }
   /// Where the tool is, in program coordinates, after Flush().
   AxisValues position() const;
   void Push(const Command& command);
@@ -87,6 +88,7 @@ class CutterComp {
   Point ProgrammedXY() const { return {programmed_[kX], programmed_[kY]}; }
 
   const ContourOptions options_;
+  bool look_ahead_ = true;
   Out out_;
   Report report_;
   Phase phase_ = Phase::kOff;

@@ -30,6 +30,12 @@ MotionOptions ToMotionOptions() {
   return options;
 }
 
+/// CHANDATA(1), as the control writes it before the data of a channel.
+bool IsFirstChannel(const SinumerikStep& step, const SinumerikItem& item) {
+  return item.kind == SinumerikItemKind::kCall && item.command->name == "CHANDATA" &&
+         item.value_count == 1 && step.argument(item, 0).number == 1.0;
+}
+
 /// Files of tool and work offsets are NC code: they are run first, and may move nothing.
 void RunDataFiles(const machine::Job& job, Sinumerik840dSystem* system, SourceFiles* files,
                   RunLog* log) {
@@ -50,7 +56,7 @@ void RunDataFiles(const machine::Job& job, Sinumerik840dSystem* system, SourceFi
       if (event == SinumerikEvent::kStopped) return log->Stop();
       if (event != SinumerikEvent::kStep) continue;
       for (const SinumerikItem& item : step.items) {
-        if (item.used) continue;
+        if (item.used || IsFirstChannel(step, item)) continue;
         log->Report(Rule::kUnsupportedCode, step.where, "a file of offsets may set variables only");
         break;
       }

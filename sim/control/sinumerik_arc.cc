@@ -187,4 +187,16 @@ std::string MakeSinumerikArc(const AxisValues& start, const SinumerikArcWords& w
   return ByCentre(start, plane, centre, words.clockwise, tolerance, command);
 }
 
+Eigen::Vector3d ArcNormal(const Command& arc) {
+  if (!arc.arc_normal.isZero(0.0)) return arc.arc_normal;
+  return Eigen::Vector3d::Unit(AxesOf(arc.plane).normal);
+}
+
+Eigen::Vector3d EndTangent(const Command& arc) {
+  const Eigen::Vector3d radius =
+      Eigen::Vector3d(arc.end[kX], arc.end[kY], arc.end[kZ]) - arc.centre;
+  const Eigen::Vector3d normal = ArcNormal(arc);
+  return arc.clockwise ? radius.cross(normal) : normal.cross(radius);
+}
+
 }  // namespace ncsim::control

@@ -35,4 +35,9 @@ struct CircleTolerance {
 std::string MakeSinumerikArc(const AxisValues& start, const SinumerikArcWords& words,
                              const CircleTolerance& tolerance, Command* command);
 
+/// The axis of an arc that MakeSinumerikArc() has made; counter-clockwise about it is G3.
+Eigen::Vector3d ArcNormal(const Command& arc);
+/// Its direction at its end, of any length.
+Eigen::Vector3d EndTangent(const Command& arc);
+
 }  // namespace ncsim::control

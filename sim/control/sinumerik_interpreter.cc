@@ -23,6 +23,7 @@ ContourOptions CompensationOptions() {
   ContourOptions options;
   options.type_b = false;         // NORM: straight to the point beside the contour's start.
   options.fanuc_corners = false;  // G450: an arc about an outside corner.
+  options.long_lead = false;      // NORM asks for no length (W1 09/2011, 18.5.3).
   options.corner_names = {"RND=", "CHR=", "CHF="};
   return options;
 }
@@ -45,7 +46,13 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
       motionless_m_(std::move(motionless_m)),
       contour_(
           CompensationOptions(),
-          [this](const Command& command) { parts_.to_motion->Execute(command); },
+          [this](const Command& command) {
+            if (under_way_ != 0) {
+              Unsupported("POSA", command.where,
+                          "what moves before WAITP, while the axis is still under way");
+            }
+            parts_.to_motion->Execute(command);
+          },
           [this](const Finding& finding) {
             // Which corners compensation cannot go round is the other control's rule.
             const bool alarm = finding.severity == Severity::kError;
@@ -56,7 +63,7 @@ SinumerikInterpreter::SinumerikInterpreter(const Parts& parts, std::vector<int> 
           [this](const Finding& finding) {
             // The control shortens a corner that does not fit, or leaves it out.
             log_.ReportOnce("corner", Rule::kUnsupportedCode, finding.where,
-                            "RND, CHR or CHF was not simulated here: " + finding.message);
+                            "RND, RNDM, CHR or CHF was not simulated here: " + finding.message);
           }),
       tool_(start_tool) {
   for (const nc::SinumerikCommand& row : nc::Sinumerik840dGCodes()) {
@@ -138,7 +145,8 @@ void SinumerikInterpreter::Execute(SinumerikStep* step) {
     log_.Assume("block skip", "off: blocks with / are executed where no level is switched on",
                 false);
   }
-  ApplyCodes();
+  ResolveAxisWords();
+  if (!log_.stopped()) ApplyCodes();
   if (!log_.stopped()) ApplyTechnology();
   if (!log_.stopped()) ApplyM(false);
   // Of the tool that M6 has brought.
@@ -179,6 +187,25 @@ AxisValues SinumerikInterpreter::MachinePosition() {
   contour_.Flush();
   if (Is(kSinComp, "G40")) return parts_.to_motion->position();
   return parts_.frames->ToMachine(frame_, position_);
+}
+
+/// AX[X]=10 is X=10.
+void SinumerikInterpreter::ResolveAxisWords() {
+  for (SinumerikItem& item : step_->items) {
+    const bool word = item.kind == SinumerikItemKind::kWord && item.letter == 0;
+    if (!word || item.value_count == 0 || !nc::SameName(item.name, "AX")) continue;
+    const std::string& axis = step_->argument(item, 0).text;
+    if (axis.size() != 1 || std::string_view("XYZABC").find(axis[0]) == std::string_view::npos) {
+      continue;
+    }
+    if (step_->Find(axis[0]) != nullptr) {
+      Alarm(Where(item), 16420, axis + " stands twice in the block");
+      return;
+    }
+    item.letter = axis[0];
+    ++item.first_value;
+    --item.value_count;
+  }
 }
 
 void SinumerikInterpreter::ApplyCodes() {
@@ -251,6 +278,8 @@ void SinumerikInterpreter::UpdateModes() {
     if (active_.length != 0.0) frame_dirty_ = new_length_ = true;
   }
   incremental_ = Is(kSinDistance, "G91");
+  // CDOF: the corner with the next block, and nothing beyond it.
+  contour_.LookAhead(Is(kSinBottleneck, "CDON"));
   mm_ = Is(kSinUnits, "G70") || Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
   feed_mm_ = Is(kSinUnits, "G700") ? kMmPerInch : 1.0;
 }
@@ -348,6 +377,10 @@ void SinumerikInterpreter::ApplyTechnology() {
   number("OTOL", kPi / 180.0, &otol_);
   number("ADIS", mm_, &adis_);
   number("ADISPOS", mm_, &adispos_);
+  if (Peek("RNDM") != nullptr) {
+    const SinumerikItem* radius = Take("RNDM");
+    if (radius != nullptr) modal_rounding_ = std::max(0.0, radius->value * mm_);
+  }
   for (const std::string_view name : {"SPOS", "SPOSA"}) {
     if (Peek(name) != nullptr && Take(name) != nullptr) spindle_ = 0;
   }
@@ -420,6 +453,8 @@ void SinumerikInterpreter::ExecuteCalls() {
       CancelFrame(true, Where(item));
     } else if (command.name == "TRAFOOF") {
       if (traori_) CancelFrame(false, Where(item));
+    } else if (command.name == "WAITP") {
+      WaitForAxes(arguments);
     } else if (command.support == Support::kUnsupported) {
       Unsupported(command.name, Where(item), std::string(command.meaning));
     }

@@ -48,6 +48,7 @@ enum SinumerikGroup {
   kSinUnits = 13,
   kSinDistance = 14,
   kSinFeedMode = 15,
+  kSinBottleneck = 23,
   kSinOrientationSystem = 25,
   kSinCompressor = 30,
   kSinOrientationAngles = 50,
@@ -136,6 +137,7 @@ class SinumerikInterpreter {
   };
 
   // sinumerik_interpreter.cc: blocks and modal state
+  void ResolveAxisWords();
   void ApplyCodes();
   void ApplyCode(SinumerikItem* item);
   void UpdateModes();
@@ -189,6 +191,7 @@ class SinumerikInterpreter {
   void MachinePoint(const SinumerikItem& item);
   void ExecuteMotion();
   void PositionAxis();
+  void WaitForAxes(std::span<const nc::SinumerikValue> axes);
   bool TakeTargets(AxisValues* end, unsigned* named);
   bool LinearTarget(int axis, const SinumerikItem& item, double* value);
   bool RotaryTarget(int axis, const SinumerikItem& item, double* value);
@@ -206,11 +209,12 @@ class SinumerikInterpreter {
   void PushMachine(CommandKind kind, unsigned named, const AxisValues& target);
 
   // sinumerik_orientation.cc
-  bool TakeOrientation(AxisValues* end, unsigned* named);
+  bool TakeOrientation(const SinumerikArcWords* arc, AxisValues* end, unsigned* named);
   std::optional<Eigen::Vector3d> TakeTriple(char digit);
   std::optional<Eigen::Vector3d> TakeToolAxis();
   void TakeSurfaceNormal();
-  std::optional<Eigen::Vector3d> TakeLeaning(const AxisValues& end);
+  std::optional<Eigen::Vector3d> TakeLeaning(const SinumerikArcWords* arc, const AxisValues& end);
+  std::optional<Eigen::Vector3d> WayAt(const SinumerikArcWords* arc, const AxisValues& end) const;
   bool Reach(const Eigen::Vector3d& axis, AxisValues* end, unsigned* named);
   bool WithinLimits(const Eigen::Vector3d& u_B, const std::array<double, 2>& from, bool led,
                     std::array<double, 2>* reached);
@@ -284,6 +288,8 @@ class SinumerikInterpreter {
   AxisValues position_{};  ///< Programmed position, program coordinates of frame_.
   AxisValues carry_{};     ///< What the next incremental move of an axis goes beside its own way.
   std::array<bool, kNumAxes> carry_turned_{};  ///< And the frame has turned since.
+  unsigned under_way_ = 0;                     ///< Bit n: the axis that POSA has sent, till WAITP.
+  double modal_rounding_ = 0.0;                ///< RNDM, mm.
   Eigen::Vector2d pole_ = Eigen::Vector2d::Zero();
   Eigen::Vector3d tangent_ = Eigen::Vector3d::Zero();          ///< At the end of the last motion.
   Eigen::Vector3d surface_normal_ = Eigen::Vector3d::UnitZ();  ///< A5 B5 C5, or A4 B4 C4.

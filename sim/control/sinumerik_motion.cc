@@ -97,9 +97,11 @@ void SinumerikInterpreter::PushMachine(CommandKind kind, unsigned named, const A
 }
 
 /// POS[X]=10 [FA[X]=500], alone in its block: a line. More axes would go each at its own rate; what
-/// stands beside it is left over, and said.
+/// stands beside it is left over, and said. POSA[X]=10 is under way until WAITP(X): what moves
+/// before is not followed.
 void SinumerikInterpreter::PositionAxis() {
-  SinumerikItem* item = Peek("POS");
+  const bool across = Peek("POS") == nullptr;
+  SinumerikItem* item = Peek(across ? "POSA" : "POS");
   item->used = true;
   const bool indexed = item->value_count == 1 && !item->is_text;
   const std::string name = indexed ? step_->values[item->first_value].text : "";
@@ -126,11 +128,15 @@ void SinumerikInterpreter::PositionAxis() {
   command_.end = end;
   command_.named = static_cast<std::uint8_t>(1U << axis);
   Push();
+  if (across) {
+    contour_.Flush();
+    under_way_ |= 1U << axis;
+  }
   moved_ = false;  // No path motion: a modal call does not follow it.
 }
 
 void SinumerikInterpreter::ExecuteMotion() {
-  if (Peek("POS") != nullptr) return PositionAxis();
+  if (Peek("POS") != nullptr || Peek("POSA") != nullptr) return PositionAxis();
   const bool suppressed = suppress_ != nullptr;
   if (suppressed) {
     if (!Is(kSinComp, "G40")) Unsupported(suppress_->name, step_->where, "with G41 or G42 active");
@@ -149,7 +155,8 @@ void SinumerikInterpreter::ExecuteMotion() {
   const bool is_arc = !is_line;
   if (is_arc) TakePole(&arc);
   const bool go = TakeTargets(&end, &named) && TakePolar(&end, &named) &&
-                  TakeOrientation(&end, &named) && (!is_arc || TakeArcWords(&arc)) && TakePitch();
+                  (!is_arc || TakeArcWords(&arc)) &&
+                  TakeOrientation(is_arc ? &arc : nullptr, &end, &named) && TakePitch();
   constexpr unsigned kAside = 1U << kX | 1U << kY;
   if (tool_frame() && !suppressed && ((named & kAside) != 0 || is_arc)) {
     Unsupported("X, Y or an arc under TOROT", step_->where,
@@ -389,7 +396,16 @@ void SinumerikInterpreter::Move(const AxisValues& end, unsigned named) {
   if (!way.isZero(0.0)) tangent_ = way;
 }
 
-/// What is inserted between this line and the next one.
+/// WAITP(X): the axes are where POSA has sent them.
+void SinumerikInterpreter::WaitForAxes(std::span<const nc::SinumerikValue> axes) {
+  for (const nc::SinumerikValue& axis : axes) {
+    const std::size_t i = axis.text.size() == 1 ? kLetters.find(axis.text[0]) : kLetters.npos;
+    if (i < kNumAxes) under_way_ &= ~(1U << i);
+  }
+}
+
+/// What is inserted between this line and the next one; RNDM rounds where nothing else is asked
+/// for.
 bool SinumerikInterpreter::TakeCorner() {
   const auto length = [&](std::string_view name, double* value) {
     if (Peek(name) == nullptr) return;
@@ -398,6 +414,15 @@ bool SinumerikInterpreter::TakeCorner() {
   length("RND", &command_.corner_radius);
   length("CHR", &command_.corner_chamfer);
   length("CHF", &command_.corner_chamfer_length);
+  if (modal_rounding_ == 0.0) return !log_.stopped();
+  if (command_.corner_radius + command_.corner_chamfer + command_.corner_chamfer_length > 0.0) {
+    Unsupported("RND, CHR or CHF under RNDM", step_->where, "which of them the control takes");
+  }
+  const PlaneAxes plane = AxesOf(plane_);
+  for (const int axis : {plane.first, plane.second}) {
+    const std::size_t i = static_cast<std::size_t>(axis);
+    if (command_.end[i] != position_[i]) command_.corner_radius = modal_rounding_;
+  }
   return !log_.stopped();
 }
 
@@ -448,12 +473,7 @@ void SinumerikInterpreter::MoveOnArc(const SinumerikArcWords& words) {
   if (log_.stopped()) return;
   command_ = last;
   Push();
-  const Eigen::Vector3d radius =
-      Eigen::Vector3d(last.end[kX], last.end[kY], last.end[kZ]) - last.centre;
-  const Eigen::Vector3d normal = last.arc_normal.isZero(0.0)
-                                     ? Eigen::Vector3d(Eigen::Vector3d::Unit(plane.normal))
-                                     : last.arc_normal;
-  tangent_ = last.clockwise ? radius.cross(normal) : normal.cross(radius);
+  tangent_ = EndTangent(last);
 }
 
 /// False: an arc that is none any more in this frame, and it has been said.

@@ -79,15 +79,35 @@ TEST(SinumerikMotion, CornersAreRoundedAndChamfered) {
   // At 60 deg of turn a chamfer of 3 sqrt(3) lies 3 from the corner.
   EXPECT_EQ(ways("CHF=3*SQRT(3)", "X=10+10*COS(60) Y=10*SIN(60)"), "7,0 11.5,2.5981 15,8.6603 ");
   EXPECT_EQ(ways("RND=0"), "10,0 10,10 ");
-  EXPECT_EQ(
-      ways("RND=11"),
-      "10,0 10,10 RND, CHR or CHF was not simulated here: corner rounding RND=11 mm needs 11 mm "
-      "of moves that are 10 and 10 mm long");
-  EXPECT_EQ(
-      ways("CHF=1", "G2 Y10 CR=6"),
-      "10,0 10,10 RND, CHR or CHF was not simulated here: chamfer CHF=1 mm is not followed by a "
-      "linear move (G01)");
-  EXPECT_EQ(ways("RNDM=1").substr(0, 30), "10,0 10,10 RNDM was not simula");
+  EXPECT_EQ(ways("RND=11"),
+            "10,0 10,10 RND, RNDM, CHR or CHF was not simulated here: corner rounding RND=11 mm "
+            "needs 11 mm "
+            "of moves that are 10 and 10 mm long");
+  EXPECT_EQ(ways("CHF=1", "G2 Y10 CR=6"),
+            "10,0 10,10 RND, RNDM, CHR or CHF was not simulated here: chamfer CHF=1 mm is not "
+            "followed by a "
+            "linear move (G01)");
+}
+
+TEST(SinumerikMotion, RndmRoundsUntilItIs0) {
+  // The same manual: in the block that leads to the corner, as RND in each such block.
+  const auto points = [](const std::string& text) {
+    std::string ends;
+    const TestRun run = SinumerikTest().Run(Head("G1 F500 Z10\n" + text));
+    for (const motion::Motion& motion : run.motions) {
+      ends += Short(motion.q1()[kJointX]) + "," + Short(motion.q1()[kJointY]) + " ";
+    }
+    return ends + run.Text();
+  };
+  EXPECT_EQ(points("RNDM=2 X10\nY10\nX0 RNDM=0\nY0\n"), points("X10 RND=2\nY10 RND=2\nX0\nY0\n"));
+  EXPECT_EQ(points("RNDM=2\nX10\nG4 F1\nY10\nRNDM=0 X0\nG0 Z20\n"),
+            points("X10 RND=2\nG4 F1\nY10 RND=2\nX0\nG0 Z20\n"));
+  for (const char* what : {"RNDM=2 X10\nY10 RND=1\nX0 RNDM=0\n", "RNDM=2 X10\nG0 Y10\n",
+                           "RNDM=2 X10\nZ9\nX0 RNDM=0\n", "RNDM=2 X10\nG2 X0 CR=9\n"}) {
+    EXPECT_TRUE(
+        SinumerikTest().Run(Head(std::string("G1 F500\n") + what)).Has(Rule::kUnsupportedCode))
+        << what;
+  }
 }
 
 TEST(SinumerikMotion, FixedPointsAreMachineData) {
@@ -332,6 +352,26 @@ TEST(SinumerikMotion, CompensationNeedsAnEdge) {
   EXPECT_NE(run.Text().find("10750"), std::string::npos) << run.Text();
 }
 
+TEST(SinumerikMotion, NormGoesStraightBesideTheContourHoweverNearItStarts) {
+  // W1 09/2011, 18.5.3: NORM goes on a line to where the normal of the contour's start has the
+  // centre, from behind the contour too, and from its end likewise. Radius 5, left of Y is -X.
+  const TestRun run = SinumerikTest().Run(Head("G1 F100 G41 X2\nY20\nG40 X3\nX4\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 3), "X7 Y20 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 4), "X7 Y40 Z-100 B0 C0");
+  EXPECT_EQ(EndOf(run, 5), "X13 Y40 Z-100 B0 C0");
+}
+
+TEST(SinumerikMotion, BottlenecksAreLookedForUnderCdonOnly) {
+  // NC programming 12/2019, p. 286: CDOF looks at the corner with the next block only. A pocket
+  // whose third side ends 6 from its first, for a tool of 10; each corner has room enough.
+  const std::string pocket = " G1 F100 Y10\nG41 Y0\nY-20\nX30\nX6 Y0\nY1\nG40 Y20\n";
+  const TestRun off = SinumerikTest().Run(Head("CDOF" + pocket));
+  EXPECT_TRUE(off.findings.empty()) << off.Text();
+  EXPECT_EQ(EndOf(off, 5).substr(0, 7), "X15 Y5 ");
+  EXPECT_TRUE(SinumerikTest().Run(Head("CDON" + pocket)).Has(Rule::kUnsupportedCode));
+}
+
 TEST(SinumerikMotion, CirclesAboutThePole) {
   // Manual, "Circular interpolation with polar coordinates": the pole is the centre.
   const TestRun run = SinumerikTest().Run(Head("G111 X10 Y0\nG3 F100 RP=10 AP=270\n"));
@@ -364,8 +404,24 @@ TEST(SinumerikMotion, PositionsOneAxisInABlock) {
   // It is no path motion: a modal call (here of a cycle that is not simulated) does not follow it.
   EXPECT_FALSE(
       SinumerikTest().Run(Head("MCALL CYCLE61(1)\nPOS[X]=5\nMCALL\n")).Has(Rule::kUnsupportedCode));
-  for (const char* block : {"POS[X]=5 POS[Y]=1", "POS[X]=1 Y2", "POSA[X]=1"}) {
+  for (const char* block : {"POS[X]=5 POS[Y]=1", "POS[X]=1 Y2"}) {
     EXPECT_TRUE(SinumerikTest().Run(Head(std::string(block) + "\n")).Has(Rule::kUnsupportedCode));
+  }
+}
+
+TEST(SinumerikMotion, PosaIsPosWhereWaitpFollows) {
+  // Manual, "Positioning axes": the axis may go on beyond its block, and WAITP waits for it.
+  TestRun run =
+      SinumerikTest().Run(Head("POSA[X]=5 FA[X]=600\nR1=2\nWAITP(X)\nX7\nPOSA[C]=90\nM30\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 3), "X15 Y20 Z-100 B0 C0");
+  EXPECT_NEAR(run.Last(3).duration, 0.5, 1e-9);
+  EXPECT_EQ(EndOf(run, 7), "X17 Y20 Z-100 B0 C90");
+  for (const char* rest : {"Y2", "WAITP(Y)\nY2", "POSA[Y]=2", "T2 M6", "SUPA G0 Z0 D0"}) {
+    run = SinumerikTest().Run(Head("POSA[X]=5\n" + std::string(rest) + "\n"));
+    const Finding* found = run.Find(Rule::kUnsupportedCode);
+    ASSERT_NE(found, nullptr) << rest;
+    EXPECT_EQ(found->message.substr(0, 4), "POSA");
   }
 }
 
@@ -427,6 +483,29 @@ TEST(SinumerikFrames, VariablesOfActiveFrames) {
   EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << run.Text();
   run = control.Run(Head("$P_UIFR[2,X,SC]=0\n"));
   EXPECT_TRUE(run.Has(Rule::kControlAlarm)) << run.Text();
+}
+
+TEST(SinumerikFrames, BasicFramesAreNone) {
+  // As control data write them out; a shift of one is not simulated.
+  const TestRun run = SinumerikTest().Run(
+      Head("$P_CHBFR[0]=CTRANS(X,0,Y,0):CROT(Z,0):CSCALE(X,1)\n$P_UBFR[X,TR]=0\n"
+           "$P_BFRAME=CTRANS()\nR1=3+$P_CHBFR[0,X,TR]+$P_ACTBFRAME[Z,RT]\nG0 X=R1\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 7), "X13 Y20 Z-100 B0 C0");
+  EXPECT_TRUE(run.Assumed("basic frame"));
+  for (const char* block : {"$P_UBFR=CTRANS(X,1)", "$P_CHBFR[0,X,TR]=1", "$P_UBFR=CSCALE(X,2)"}) {
+    EXPECT_TRUE(SinumerikTest().Run(Head(block)).Has(Rule::kUnsupportedCode)) << block;
+  }
+}
+
+TEST(SinumerikMotion, AnAddressMayBeNamedByAnAxis) {
+  // Manual, "Addresses": AX[X]=10 is X=10.
+  const TestRun run =
+      SinumerikTest().Run(Head("DEF AXIS _AX\n_AX=Y\nG0 AX[X]=3 AX[_AX]=IC(2) AX[$P_AXN3]=60\n"));
+  EXPECT_TRUE(run.findings.empty()) << run.Text();
+  EXPECT_EQ(EndOf(run, 5), "X13 Y22 Z-90 B0 C0");
+  EXPECT_NE(SinumerikTest().Run(Head("AX[X]=3 X2\n")).Text().find("16420"), std::string::npos);
+  EXPECT_FALSE(SinumerikTest().Run(Head("AX[A]=3\n")).findings.empty());
 }
 
 TEST(SinumerikFrames, SystemVariablesAreInInchesUnderG700) {

@@ -20,6 +20,8 @@ namespace {
 constexpr double kNoVector = 1e-9;
 // rad: an orientation that is the pole, and a rotary axis on its limit.
 constexpr double kSame = 1e-9;
+// An arc that leaves its plane by no more, for each mm of its chord, is no helix.
+constexpr double kFlat = 1e-9;
 constexpr std::string_view kWrapNote =
     "; what decides is machine data: MD21104 = 1 with ORIAXES and MD30455 bit 2 = 0, as here, "
     "turns "
@@ -92,11 +94,31 @@ void SinumerikInterpreter::TakeSurfaceNormal() {
   }
 }
 
-/// LEAD and TILT: against the surface's normal (Z where none is programmed), along the line to
-/// `end`.
-std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeLeaning(const AxisValues& end) {
+/// The path's direction at the end of the line or arc to `end`; nullopt: it has none, or a helix.
+std::optional<Eigen::Vector3d> SinumerikInterpreter::WayAt(const SinumerikArcWords* arc,
+                                                           const AxisValues& end) const {
   const Eigen::Vector3d way(end[kX] - position_[kX], end[kY] - position_[kY],
                             end[kZ] - position_[kZ]);
+  if (motion_ == MotionMode::kThread) return std::nullopt;
+  if (arc == nullptr) return way.isZero(0.0) ? std::nullopt : std::optional(way);
+  Command command = command_;
+  command.end = end;
+  SinumerikArcWords words = *arc;
+  words.end_named = !way.isZero(0.0);
+  const CircleTolerance tolerance = {settings_.circle_error, settings_.circle_error_factor};
+  if (!MakeSinumerikArc(position_, words, tolerance, &command).empty()) return std::nullopt;
+  const Eigen::Vector3d chord(command.end[kX] - position_[kX], command.end[kY] - position_[kY],
+                              command.end[kZ] - position_[kZ]);
+  if (command.kind != CommandKind::kArc) return chord;  // CT, straight on.
+  const bool flat = std::abs(chord.dot(ArcNormal(command))) <= kFlat * (1.0 + chord.norm());
+  return flat ? std::optional(EndTangent(command)) : std::nullopt;
+}
+
+/// LEAD and TILT: against the surface's normal (Z where none is programmed), along the path at
+/// `end`.
+std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeLeaning(const SinumerikArcWords* arc,
+                                                                 const AxisValues& end) {
+  const std::optional<Eigen::Vector3d> way = WayAt(arc, end);
   const bool along = Is(kSinOrientationPath, "ORIPATH");
   std::array<bool, 2> named{};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -112,16 +134,16 @@ std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeLeaning(const AxisValue
     Unsupported(name, step_->where, why);
     return std::nullopt;
   };
-  if (!any && (!along || !traori_ || way.isZero(0.0))) return std::nullopt;
+  if (!any && (!along || !traori_ || (!way && arc == nullptr))) return std::nullopt;
   if ((!named[0] && leaning_[0] != 0.0) || (!named[1] && leaning_[1] != 0.0) || !any) {
     return unsupported("a block with ORIPATH, LEAD or TILT that does not state both angles",
                        "whether the ones before stay is not known");
   }
   if (!traori_) return unsupported("LEAD or TILT without TRAORI");
   if (!Is(kSinOrientationSystem, "ORIWKS")) return unsupported("LEAD or TILT with ORIMKS");
-  const bool line = motion_ == MotionMode::kRapid || motion_ == MotionMode::kLine;
-  if (!line || way.isZero(0.0)) {
-    return unsupported("LEAD or TILT in a block that is no line", "it has no path tangent here");
+  if (!way) {
+    return unsupported("LEAD or TILT in a block that is neither a line nor a flat arc",
+                       "it has no path tangent here");
   }
   const int order = settings_.leaning_mode / 10 % 10;
   if (order > static_cast<int>(LeanOrder::kTiltThenLeadAboutTurnedSide) ||
@@ -137,16 +159,17 @@ std::optional<Eigen::Vector3d> SinumerikInterpreter::TakeLeaning(const AxisValue
     log_.Assume("TILT", "above 0 turns right-handed about its axis" + std::string(kSense), true);
   }
   const auto axis =
-      LeanedAxis(surface_normal_, way, leaning_[0], leaning_[1], static_cast<LeanOrder>(order));
+      LeanedAxis(surface_normal_, *way, leaning_[0], leaning_[1], static_cast<LeanOrder>(order));
   if (!axis) return unsupported("LEAD or TILT where the surface's normal is along the path");
   return axis;
 }
 
 /// Sets the rotary axes of `end` to what an orientation in the block asks for. False: stopped.
-bool SinumerikInterpreter::TakeOrientation(AxisValues* end, unsigned* named) {
+bool SinumerikInterpreter::TakeOrientation(const SinumerikArcWords* arc, AxisValues* end,
+                                           unsigned* named) {
   TakeSurfaceNormal();
   std::optional<Eigen::Vector3d> axis = TakeToolAxis();
-  if (!axis) axis = TakeLeaning(*end);
+  if (!axis) axis = TakeLeaning(arc, *end);
   if (!axis) return !log_.stopped();
   if (!traori_) {
     Unsupported("an orientation vector without TRAORI", step_->where);

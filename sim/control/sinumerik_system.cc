@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/sinumerik_system.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -31,6 +33,19 @@ std::optional<int> EdgeParameter(std::string_view name) {
   return number;
 }
 
+/// What tool management keeps of tools, their monitoring and magazines, as a control writes it out.
+bool IsOfToolManagement(std::string_view name) {
+  for (const std::string_view family :
+       {"$TC_TP", "$TC_TPC", "$TC_TPCS", "$TC_DPC", "$TC_DPCS", "$TC_MOP", "$TC_MOPC", "$TC_MOPCS",
+        "$TC_MAP", "$TC_MAPC", "$TC_MAPCS", "$TC_MPP", "$TC_MPPC", "$TC_MPPCS", "$TC_MDP",
+        "$TC_MTP", "$TC_MTPC", "$TC_MTPCS"}) {
+    if (!name.starts_with(family) || name.size() == family.size()) continue;
+    const std::string_view number = name.substr(family.size());
+    if (std::all_of(number.begin(), number.end(), nc::IsDigit)) return true;
+  }
+  return name == "$TC_DPCE" || name == "$TC_DPH" || name == "$TC_MLSR" || name == "$TC_MPTH";
+}
+
 std::optional<int> Whole(const SinumerikValue& value, int lowest, int highest) {
   if (!value.is_number() || value.number != std::floor(value.number)) return std::nullopt;
   if (!(value.number >= lowest && value.number <= highest)) return std::nullopt;
@@ -40,6 +55,17 @@ std::optional<int> Whole(const SinumerikValue& value, int lowest, int highest) {
 Access Fail(std::string* message, int alarm, std::string text) {
   *message = nc::AlarmText(alarm, std::move(text));
   return Access::kAlarm;
+}
+
+/// A basic frame, or one of the system's that lie before the settable one. `indexed`: one of
+/// several.
+bool IsBasicFrame(std::string_view name, bool* indexed) {
+  constexpr std::array<std::string_view, 4> kIndexed = {"$P_CHBFR", "$P_NCBFR", "$P_CHBFRAME",
+                                                        "$P_NCBFRAME"};
+  constexpr std::array<std::string_view, 5> kOne = {"$P_UBFR", "$P_BFRAME", "$P_ACTBFRAME",
+                                                    "$P_SETFRAME", "$P_EXTFRAME"};
+  *indexed = std::find(kIndexed.begin(), kIndexed.end(), name) != kIndexed.end();
+  return *indexed || std::find(kOne.begin(), kOne.end(), name) != kOne.end();
 }
 
 }  // namespace
@@ -110,6 +136,40 @@ Access Sinumerik840dSystem::ReadFrame(std::string_view name, Indices indices, Si
   *value = SinumerikValue::Real(
       Component(*frame, static_cast<std::size_t>(axis), indices[1].text, unit()));
   return Access::kDone;
+}
+
+/// Not simulated: they read as zero frames and may be set to one.
+Access Sinumerik840dSystem::ReadBasicFrame(bool indexed, Indices indices, SinumerikValue* value,
+                                           std::string* message) {
+  log_->Assume("basic frame", "none: neither job nor program states one", false);
+  if (indexed && !indices.empty()) indices.erase(indices.begin());
+  const SettableFrame zero;
+  if (indices.empty()) {
+    *value = SinumerikValue::Frame(ToValue(zero, 1.0));
+    return Access::kDone;
+  }
+  const int axis = AxisOf(indices[0]);
+  if (indices.size() != 2 || axis < 0) {
+    return Fail(message, 12080, "a frame takes an axis and TR, FI, RT, SC or MI");
+  }
+  *value =
+      SinumerikValue::Real(Component(zero, static_cast<std::size_t>(axis), indices[1].text, 1.0));
+  return Access::kDone;
+}
+
+Access Sinumerik840dSystem::WriteBasicFrame(std::string_view name, bool indexed, Indices indices,
+                                            const SinumerikValue& value, std::string* message) {
+  if (indexed && !indices.empty()) indices.erase(indices.begin());
+  bool zero = false;
+  if (indices.empty()) {
+    const std::optional<AffineFrame> frame = ToAffine(value, 1.0);
+    zero = value.type == nc::SinumerikType::kFrame && frame && frame->is_zero();
+  } else if (indices.size() == 2 && value.is_number()) {
+    zero = value.number == (indices[1].text == "SC" ? 1.0 : 0.0);
+  }
+  if (zero) return Access::kDone;
+  *message = std::string(name) + " = another frame than CTRANS() was not simulated";
+  return Access::kUnknown;
 }
 
 /// The n of $P_UIFR[n, ...], and takes it out.
@@ -217,6 +277,10 @@ Access Sinumerik840dSystem::ReadState(std::string_view name, const Indices& indi
     *value = SinumerikValue::Real(number);
     return Access::kDone;
   };
+  if (name == "$P_AXN1" || name == "$P_AXN2" || name == "$P_AXN3") {
+    *value = SinumerikValue::Axis(std::string(1, "XYZ"[name.back() - '1']));
+    return Access::kDone;
+  }
   if (name == "$P_TOOLNO") return whole(now.tool());
   if (name == "$P_TOOLP") return whole(std::max(0, now.next_tool()));
   if (name == "$P_TOOL") return whole(now.edge());
@@ -244,6 +308,8 @@ Access Sinumerik840dSystem::Read(std::string_view name, const Indices& indices,
   for (const std::string_view frame : {"$P_UIFR", "$P_IFRAME", "$P_PFRAME", "$P_ACTFRAME"}) {
     if (name == frame) return ReadFrame(name, indices, value, message);
   }
+  bool indexed = false;
+  if (IsBasicFrame(name, &indexed)) return ReadBasicFrame(indexed, indices, value, message);
   if (const auto number = EdgeParameter(name)) {
     if (indices.size() != 2) return Fail(message, 17020, "$TC_DPn[tool, edge]");
     const auto tool = Whole(indices[0], 1, kMaxTool), edge = Whole(indices[1], 1, kMaxEdge);
@@ -269,8 +335,19 @@ Access Sinumerik840dSystem::Write(std::string_view name, const Indices& indices,
   for (const std::string_view frame : {"$P_UIFR", "$P_IFRAME", "$P_PFRAME"}) {
     if (name == frame) return WriteFrame(name, indices, value, message);
   }
+  bool indexed = false;
+  if (IsBasicFrame(name, &indexed)) {
+    return WriteBasicFrame(name, indexed, indices, value, message);
+  }
   const auto number = EdgeParameter(name);
-  if (!number) return Access::kUnknown;
+  if (!number) {
+    // Of all others, 0 and "" are what they hold anyway.
+    const bool nothing = value.is_number()
+                             ? value.number == 0.0
+                             : value.type == nc::SinumerikType::kString && value.text.empty();
+    const bool moves_nothing = name.starts_with("$TC_") && (nothing || IsOfToolManagement(name));
+    return moves_nothing ? Access::kDone : Access::kUnknown;
+  }
   const auto tool = indices.size() == 2 ? Whole(indices[0], 1, kMaxTool) : std::nullopt;
   const auto edge = indices.size() == 2 ? Whole(indices[1], 1, kMaxEdge) : std::nullopt;
   if (!tool || !edge || !value.is_number()) {

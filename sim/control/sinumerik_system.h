@@ -35,6 +35,10 @@ class Sinumerik840dSystem : public SinumerikSystem {
   using Indices = std::vector<nc::SinumerikValue>;
   Access ReadState(std::string_view name, const Indices& indices, nc::SinumerikValue* value);
   Access ReadPosition(std::string_view name, const Indices& indices, nc::SinumerikValue* value);
+  Access ReadBasicFrame(bool indexed, Indices indices, nc::SinumerikValue* value,
+                        std::string* message);
+  static Access WriteBasicFrame(std::string_view name, bool indexed, Indices indices,
+                                const nc::SinumerikValue& value, std::string* message);
   Access ReadFrame(std::string_view name, Indices indices, nc::SinumerikValue* value,
                    std::string* message);
   Access WriteFrame(std::string_view name, Indices indices, const nc::SinumerikValue& value,

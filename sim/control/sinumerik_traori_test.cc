@@ -369,6 +369,23 @@ TEST(SinumerikTraori, LeadAndTiltByMd21094) {
   EXPECT_TRUE(run.findings.empty()) << run.Text();
 }
 
+TEST(SinumerikTraori, LeadAtTheEndOfAnArc) {
+  // A quarter from X10 to Y10 about the zero, in the sense of G3, ends against X; in that of G2
+  // from Y10 to X10 against Y; CIP through the middle as G3.
+  const double s = std::sin(Radians(10.0)), c = std::cos(Radians(10.0));
+  const SinumerikTest control;
+  const std::string to = std::string(kStart) + "G1 F500 X10\n", both = " LEAD=10 TILT=0\n";
+  for (const std::string arc : {"G3 X0 Y10 I-10 J0", "G3 X0 Y10 CR=10", "G3 AR=90 I-10 J0",
+                                "CIP X0 Y10 I1=10*COS(45) J1=10*SIN(45)"}) {
+    const TestRun run = control.Run(to + arc + both);
+    EXPECT_TRUE(run.findings.empty()) << arc << run.Text();
+    ExpectTip(control, run, 5, {0, 10, 20}, {-s, 0, c});
+    EXPECT_EQ(run.Last(5).kind, motion::MotionKind::kArc);
+  }
+  const TestRun back = control.Run(to + "Y10 X0\nG2 X10 Y0 CR=10" + both);
+  ExpectTip(control, back, 6, {10, 0, 20}, {0, -s, c});
+}
+
 TEST(SinumerikTraori, LeadAndTiltAreNamedWhereTheyAreNotClear) {
   SinumerikTest control;
   const auto message = [&](const std::string& text) {
@@ -377,8 +394,9 @@ TEST(SinumerikTraori, LeadAndTiltAreNamedWhereTheyAreNotClear) {
     return found == nullptr ? run.Text() : found->message;
   };
   const std::string both = " LEAD=5 TILT=0";
-  EXPECT_THAT(message("B10" + both), ::testing::HasSubstr("no line"));
-  EXPECT_THAT(message("\nG2 X10 CR=9" + both), ::testing::HasSubstr("no line"));
+  EXPECT_THAT(message("B10" + both), ::testing::HasSubstr("neither a line nor a flat arc"));
+  EXPECT_THAT(message("\nG2 X10 Z18 CR=9" + both), ::testing::HasSubstr("nor a flat arc"));
+  EXPECT_THAT(message("ORIPATH\nG2 X10 CR=9"), ::testing::HasSubstr("both angles"));
   EXPECT_THAT(message("ORIMKS X1" + both), ::testing::HasSubstr("ORIMKS"));
   EXPECT_THAT(message("X1" + both + " A3=1"), ::testing::HasSubstr("LEAD"));
   EXPECT_THAT(message("X1 A5=1" + both), ::testing::HasSubstr("normal is along the path"));
@@ -394,7 +412,7 @@ TEST(SinumerikTraori, LeadAndTiltAreNamedWhereTheyAreNotClear) {
 TEST(SinumerikTraori, WhatIsNotSimulatedIsNamed) {
   for (const std::string block :
        {"CYCLE61(1,2)", "G34 Z1 K1", "LEAD=5 TILT=1", "ORIPATH X2", "M77", "POS[X]=1", "TRACYL(40)",
-        "RNDM=2 X1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
+        "POSA[X]=1", "H5", "TOROTX", "TOROT X1", "CYCLE832(0.01,112101)", "ASCALE X2\nA3=1 C3=1"}) {
     const TestRun run = SinumerikTest().Run(std::string(kStart) + "G1 F500 X1\n" + block + "\n");
     EXPECT_TRUE(run.Has(Rule::kUnsupportedCode)) << block << run.Text();
   }

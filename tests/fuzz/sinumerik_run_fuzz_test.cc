@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBlocks = 300;
 
-constexpr std::array<std::string_view, 89> kBlocks = {
+constexpr std::array<std::string_view, 104> kBlocks = {
     "G54 G0 G90 X0 Y0 Z50 B0 C0 D1",
     "T2 M6",
     "T=\"BALL\" M6",
@@ -108,6 +108,21 @@ constexpr std::array<std::string_view, 89> kBlocks = {
     "$P_UIFR[1]=CTRANS(X,5,Z,-300):CROT(Z,30)",
     "$P_PFRAME=$P_PFRAME:CROT(Y,20):CSCALE(X,1.5)",
     "$TC_DP3[2,1]=R1+150",
+    "G1 X8 Y3 LEAD=5 TILT=10",
+    "G1 X2 A5=1 C5=1 LEAD=-8 TILT=0",
+    "ORIPATH",
+    "G3 X12 Y9 CR=40 LEAD=3 TILT=2",
+    "G58 X2 C10",
+    "G59 Y-3",
+    "ROTS X10 Y-20",
+    "AROTS Y90 Z1",
+    "RNDM=1.5",
+    "RNDM=0",
+    "POSA[Y]=12",
+    "WAITP(Y)",
+    "AX[X]=IC(3)",
+    "CYCLE800(2,\"\",11,185,1,2,3,10,20,30,0,0,0,1)",
+    "$P_UBFR=CTRANS(X,R1)",
     "SUB(3) P2"};
 
 constexpr std::string_view kSubprogram =

@@ -152,6 +152,25 @@ TEST(ImpellerScene, AnEdgeIsStatedInTheJobOrInTheDataFile) {
 }
 
 // An error in a data file is told at its line and column there, with the line and a caret.
+// With what tool management and magazines add to it, and zeros of all that is not simulated.
+TEST(ImpellerScene, ADataFileMayBeAsTheControlWritesIt) {
+  const std::string right = "$TC_DP6[2,1]=5";
+  const std::string written =
+      "CHANDATA(1)\n$TC_TP1[2]=1\n$TC_TP2[2]=\"BALLMILL_10\"\n$TC_TPC1[2]=3\n$TC_TP8[2]=2\n"
+      "$TC_DP6[2,1]=5\n$TC_DP12[2,1]=0\n$TC_DPCE[2,1]=1\n$TC_DPH[2,1]=2\n$TC_MOP1[2,1]=50\n"
+      "$TC_SCP13[2,1]=0\n$TC_CARR34[1]=\"\"\n$TC_MPP6[1,2]=2\n"
+      "$P_CHBFR[0]=CTRANS(X,0,Y,0):CROT(Z,0)";
+  SceneCopy copy("written");
+  copy.Replace("offsets.ini", right, written);
+  const json report = copy.Check(app::kExitPass);
+  EXPECT_EQ(report["findings"].size(), 0u) << report["findings"];
+  for (const char* other : {"CHANDATA(2)", "$TC_SCP13[2,1]=0.1", "$TC_CARR34[1]=\"X\""}) {
+    SceneCopy wrong("written");
+    wrong.Replace("offsets.ini", right, right + std::string("\n") + other);
+    EXPECT_NE(wrong.Text().find("offsets.ini:8:1: unproven: "), std::string::npos) << other;
+  }
+}
+
 TEST(ImpellerScene, ErrorsInADataFileAreToldAtTheirLines) {
   const std::string right = "$TC_DP6[2,1]=5";
   const std::vector<std::array<std::string, 2>> wrong = {
