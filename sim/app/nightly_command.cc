@@ -100,7 +100,12 @@ class NightlyRun {
       const auto bytes = ReadFile(executable_, std::numeric_limits<std::uint32_t>::max(), &reason);
       build = bytes ? std::optional(DigestOf(*bytes)) : std::nullopt;
     }
-    if (build) build_ = ToString(*build);
+    // Models are looked for beside the program, packages above the folder: a copy that lies
+    // elsewhere may find others.
+    if (build) {
+      build_ = ToString(*build) + '\n' + executable_ + '\n' +
+               fs::weakly_canonical(manifest_.root, error).string();
+    }
     if (!build) Complain(executable_, "this program cannot read its own files");
     return build.has_value();
   }

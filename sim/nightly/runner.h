@@ -14,7 +14,7 @@ namespace ncsim::nightly {
 
 struct RunOptions {
   std::string executable;  ///< That does `check`; an absolute path.
-  std::string build;       ///< Names the executable's contents.
+  std::string build;       ///< Names the executable's contents, and where it and the root lie.
   std::string root;        ///< Manifest::root.
   std::string scratch;     ///< An absolute path of a folder, made and removed again.
   int jobs = 1;            ///< Checks at a time.

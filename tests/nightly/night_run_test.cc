@@ -194,6 +194,14 @@ TEST_F(SmallNightTest, WhatItWasCheckedWithIsLookedAt) {
   EXPECT_EQ(Run("out").checked, 3) << "a model has appeared beside the jobs";
 }
 
+// What is found by searching upward may be another there.
+TEST_F(SmallNightTest, AFolderThatWasMovedIsCheckedAgain) {
+  EXPECT_EQ(Run("out").checked, 3);
+  fs::rename(root_ / "parts", root_ / "moved");
+  options_.what = (root_ / "moved").string();
+  EXPECT_EQ(Run("out").checked, 3);
+}
+
 TEST_F(SmallNightTest, SaysWhatIsNewAndWhatCameCloser) {
   Run("out");
   options_.today = "2026-01-02";
