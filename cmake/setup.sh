@@ -4,7 +4,7 @@
 set -eu
 
 NCSIM_PACKAGES="g++ cmake ninja-build libeigen3-dev libfcl-dev libassimp-dev liburdfdom-dev
-  libtinyxml2-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libtbb-dev libxxhash-dev zlib1g-dev libjs-three
+  libtinyxml2-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libtbb-dev libxxhash-dev libsqlite3-dev zlib1g-dev libjs-three
   libgtest-dev libgmock-dev libbenchmark-dev"
 
 install_packages() {

@@ -10,6 +10,7 @@
 #include "sim/app/check_command.h"
 #include "sim/app/compare_command.h"
 #include "sim/app/explain.h"
+#include "sim/app/nightly_command.h"
 #include "sim/app/options.h"
 #include "sim/app/post_command.h"
 #include "sim/app/program_dir.h"
@@ -43,6 +44,8 @@ int RunCommand(const Command& command, std::ostream& out, std::ostream& err) {
       return Post(command.post, out, err);
     case Command::Kind::kCompare:
       return Compare(command.compare, out, err);
+    case Command::Kind::kNightly:
+      return Nightly(command.nightly, out, err);
     case Command::Kind::kInspect:
       return InspectModel(command.model, out, err);
     case Command::Kind::kExplain:

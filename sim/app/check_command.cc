@@ -16,7 +16,9 @@
 #include "sim/app/check_program.h"
 #include "sim/app/program_input.h"
 #include "sim/app/version.h"
+#include "sim/base/input_log.h"
 #include "sim/collision/threads.h"
+#include "sim/nightly/result.h"
 #include "sim/report/batch.h"
 
 namespace ncsim::app {
@@ -108,9 +110,17 @@ void WriteReports(const CheckOptions& options, const std::vector<ProgramOutcome>
   if (array) out << "]\n";
 }
 
+/// `--inputs`. A list that cannot be written is no list: nobody relies on what is not there.
+void WriteInputs(const CheckOptions& options) {
+  if (options.inputs.empty()) return;
+  std::ofstream(options.inputs, std::ios::binary | std::ios::trunc)
+      << nightly::WriteInputs(LoggedInputs());
+}
+
 }  // namespace
 
 int Check(const CheckOptions& options, std::ostream& out, std::ostream& err) {
+  if (!options.inputs.empty()) StartInputLog();
   std::ofstream file;
   if (!options.out.empty()) {
     file.open(options.out, std::ios::binary | std::ios::trunc);
@@ -127,6 +137,7 @@ int Check(const CheckOptions& options, std::ostream& out, std::ostream& err) {
   const bool progress = &err == &std::cerr && StderrShowsProgress();
   const std::vector<ProgramOutcome> outcomes =
       CheckAll(options, cache ? cache->outcomes() : nullptr, progress ? &err : nullptr);
+  WriteInputs(options);
   std::vector<int> codes;
   std::uint64_t all = 0;
   std::uint64_t recalled = 0;

@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "sim/app/app.h"
 #include "sim/app/version.h"
 #include "sim/base/text.h"
+#include "sim/nightly/baseline.h"
 
 namespace ncsim::app {
 namespace {
@@ -30,6 +32,8 @@ constexpr const char* kExamples =
     "                                                    write part.nc for the machine, and check "
     "it\n"
     "  ncsim compare old.nc new.nc --model umc750.urdf   do both move the tool alike in the part?\n"
+    "  ncsim nightly parts                               check every program below parts, and say "
+    "what is new\n"
     "  ncsim inspect umc750.urdf                         what the model says, and what is wrong "
     "with it\n"
     "  ncsim explain rotary-wrap                         what a finding means and what to do about "
@@ -38,9 +42,6 @@ constexpr const char* kExamples =
     "Exit code: 0 pass, 1 fail, 2 unproven (something was not simulated or is only assumed),\n"
     "3 bad input or usage, 4 internal error.";
 
-/// Of the contract, but of later versions: refused by name, never accepted and ignored.
-const std::vector<std::string> kLaterCommands = {"nightly"};
-
 const std::vector<std::pair<std::string, Format>> kCheckFormats = {{"text", Format::kText},
                                                                    {"json", Format::kJson},
                                                                    {"sarif", Format::kSarif},
@@ -48,10 +49,6 @@ const std::vector<std::pair<std::string, Format>> kCheckFormats = {{"text", Form
                                                                    {"github", Format::kGithub}};
 const std::vector<std::pair<std::string, Format>> kCompareFormats = {{"text", Format::kText},
                                                                      {"json", Format::kJson}};
-
-bool Contains(const std::vector<std::string>& list, const std::string& item) {
-  return std::find(list.begin(), list.end(), item) != list.end();
-}
 
 std::vector<std::string> SplitNames(const std::vector<std::string>& arguments) {
   std::vector<std::string> names;
@@ -74,6 +71,7 @@ class CommandLine {
     AddCheck();
     AddPost();
     AddCompare();
+    AddNightly();
     inspect_ = AddCommand("inspect", "print a machine model in words, and what its lint found");
     inspect_->add_option("MODEL", command_.model, "the machine, as for check --model");
     explain_ = AddCommand("explain", "what a rule means, what the machine would do, what to do");
@@ -88,6 +86,7 @@ class CommandLine {
     if (check_->parsed()) return FinishCheck();
     if (post_->parsed()) return FinishPost();
     if (compare_->parsed()) return FinishCompare();
+    if (nightly_->parsed()) return FinishNightly();
     if (inspect_->parsed()) {
       command_.kind = Command::Kind::kInspect;
       return command_.model.empty() ? "inspect needs a model: ncsim inspect umc750.urdf" : "";
@@ -96,7 +95,7 @@ class CommandLine {
       command_.kind = Command::Kind::kExplain;
       return "";
     }
-    return "which command? check, post, compare, inspect or explain (ncsim --help)";
+    return "which command? check, post, compare, nightly, inspect or explain (ncsim --help)";
   }
 
   const Command& command() const { return command_; }
@@ -160,6 +159,7 @@ class CommandLine {
         ->type_name("DIR");
     check_->add_flag("--interpret-only", o.interpret_only,
                      "leave out the collision checks; the verdict is unproven at best");
+    check_->add_option("--inputs", o.inputs, "")->group("");
   }
 
   void AddPost() {
@@ -237,6 +237,34 @@ class CommandLine {
     compare_->add_option("--format", format_, "text or json")->type_name("FORMAT");
     compare_->add_option("--out", o.out, "write the report to this file")->type_name("FILE");
     AddClInput(compare_);
+  }
+
+  void AddNightly() {
+    NightlyOptions& o = command_.nightly;
+    nightly_ = AddCommand("nightly", "check many programs: one table, and what is new");
+    nightly_->add_option("DIR", o.what,
+                         "a folder: its programs that have a job beside them; or a manifest");
+    nightly_->add_option("--out", o.out, "for tables, page and history (default: ncsim-nightly)")
+        ->type_name("DIR");
+    nightly_->add_option("--model", o.model, "of programs whose job names none, or that have none")
+        ->type_name("M.urdf");
+    nightly_->add_option("--assume", assume_, "as for check")
+        ->type_name("all|NAME,...")
+        ->allow_extra_args(false);
+    nightly_->add_flag("--strict", o.strict, "as for check");
+    nightly_->add_option("--baseline", o.baseline, "findings that are known and accepted")
+        ->type_name("B.toml");
+    nightly_->add_option("--timeout", o.timeout, "of each program (default: 3600)")->type_name("S");
+    nightly_
+        ->add_option("--jobs", o.jobs, "programs to check at a time (default: one after another)")
+        ->type_name("N");
+    nightly_->add_flag("--all", o.all, "check also what has not changed");
+    nightly_
+        ->add_option("--shard", shard_, "check part I, from 0, of N parts, and leave it in --out")
+        ->type_name("I/N");
+    nightly_->add_flag("--merge", o.merge, "make a night of the parts");
+    nightly_->add_option("--today", o.today, "the day of the night (default: by the clock)")
+        ->type_name("YYYY-MM-DD");
   }
 
   /// What the parser could not place, with a suggestion.
@@ -374,6 +402,39 @@ class CommandLine {
     return "";
   }
 
+  std::string FinishShard(NightlyOptions* o) const {
+    if (nightly_->count("--shard") == 0) return "";
+    const std::size_t slash = shard_.find('/');
+    const auto read = [&](const std::string& text, int* number) {
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), *number);
+      return error == std::errc() && end == text.data() + text.size();
+    };
+    if (slash == std::string::npos || !read(shard_.substr(0, slash), &o->shard) ||
+        !read(shard_.substr(slash + 1), &o->shard_count) || o->shard < 0 ||
+        o->shard_count > 100'000 || o->shard >= o->shard_count) {
+      return "--shard takes I/N: 0/4, 1/4, 2/4 or 3/4 of four";
+    }
+    return "";
+  }
+
+  std::string FinishNightly() {
+    command_.kind = Command::Kind::kNightly;
+    NightlyOptions& o = command_.nightly;
+    o.assume = SplitNames(assume_);
+    if (o.what.empty()) return "nightly needs a folder or a manifest: ncsim nightly parts";
+    if (nightly_->count("--out") == 0) o.out = "ncsim-nightly";
+    if (o.out.empty()) return "--out takes a folder";
+    if (o.jobs < 1 || o.jobs > 1000) return "--jobs takes a number from 1";
+    if (!(o.timeout > 0.0) || o.timeout > 1e6) return "--timeout takes a number of seconds above 0";
+    if (!o.today.empty() && !nightly::IsDay(o.today)) return "--today takes a day: 2026-11-22";
+    if (const std::string error = FinishShard(&o); !error.empty()) return error;
+    if (o.merge && (o.shard_count > 0 || o.all)) {
+      return "--merge makes a night of what was checked: without --shard and --all";
+    }
+    if (o.shard_count > 0 && !o.baseline.empty()) return "--baseline goes with --merge";
+    return "";
+  }
+
   std::string FinishCheck() {
     command_.kind = Command::Kind::kCheck;
     CheckOptions& o = command_.check;
@@ -400,6 +461,7 @@ class CommandLine {
   CLI::App* check_ = nullptr;
   CLI::App* post_ = nullptr;
   CLI::App* compare_ = nullptr;
+  CLI::App* nightly_ = nullptr;
   CLI::App* inspect_ = nullptr;
   CLI::App* explain_ = nullptr;
   Command command_;
@@ -408,6 +470,7 @@ class CommandLine {
   double tolerance_ = 0.0, angle_tolerance_ = 0.0;
   std::string format_ = "text";
   std::vector<std::string> constants_;
+  std::string shard_;
   std::string unit_, cl_unit_, cl_system_;
   int number_ = 0, first_tool_ = 0;
   bool no_check_ = false;
@@ -423,9 +486,6 @@ Command UsageError(const std::string& message, std::ostream& err) {
 }  // namespace
 
 Command ParseCommandLine(std::vector<std::string> args, std::ostream& out, std::ostream& err) {
-  if (!args.empty() && Contains(kLaterCommands, args.front())) {
-    return UsageError("'" + args.front() + "' is not in this version of ncsim", err);
-  }
   CommandLine line;
   try {
     const std::string error = line.Parse(std::move(args));

@@ -35,6 +35,7 @@ struct CheckOptions {
   std::string report;  ///< HTML; "" for none.
   std::string cache;   ///< Folder; "" for none.
   bool interpret_only = false;
+  std::string inputs;  ///< Where to write what was looked at, for `nightly`; "" for nowhere.
 };
 
 struct CompareOptions {
@@ -69,13 +70,30 @@ struct PostCommandOptions {
   bool strict = false;
 };
 
+struct NightlyOptions {
+  std::string what;   ///< A folder, or a manifest.
+  std::string out;    ///< Folder.
+  std::string model;  ///< As the others here: of programs that say nothing themselves.
+  std::vector<std::string> assume;
+  bool strict = false;
+  double timeout = 3600.0;         ///< s
+  std::string baseline;            ///< "" for none.
+  std::string today;               ///< "2026-11-22"; "" for what the clock says.
+  int jobs = 1;                    ///< Checks at a time.
+  bool all = false;                ///< Also what has not changed.
+  int shard = 0, shard_count = 0;  ///< Count 0: not a shard.
+  bool merge = false;
+  std::string executable;  ///< That checks; "" for this program.
+};
+
 struct Command {
-  enum class Kind { kCheck, kPost, kCompare, kInspect, kExplain, kDone };
+  enum class Kind { kCheck, kPost, kCompare, kNightly, kInspect, kExplain, kDone };
   Kind kind = Kind::kDone;
   int exit_code = 0;  ///< kDone: help or a usage error has been written.
   CheckOptions check;
   CompareOptions compare;
   PostCommandOptions post;
+  NightlyOptions nightly;
   std::string model;  ///< kInspect.
   std::string rule;   ///< kExplain; "" for all.
 };

@@ -128,9 +128,39 @@ TEST_F(OptionsTest, BadUsageOfPost) {
   EXPECT_THAT(Error({"post", "a.cls", "--split"}), HasSubstr("--split needs --out"));
 }
 
-TEST_F(OptionsTest, LaterCommandsAreRefusedByName) {
-  EXPECT_EQ(Error({"nightly", "a"}), "ncsim: 'nightly' is not in this version of ncsim\n");
-  EXPECT_EQ(Error({"nightly", "d", "--all"}), "ncsim: 'nightly' is not in this version of ncsim\n");
+TEST_F(OptionsTest, Nightly) {
+  const Command command =
+      Parse({"nightly", "parts", "--out", "o", "--model", "m", "--assume", "a,b", "--strict",
+             "--baseline", "b.toml", "--timeout", "2.5", "--jobs", "3", "--today", "2026-11-22"});
+  ASSERT_EQ(command.kind, Command::Kind::kNightly);
+  const NightlyOptions& o = command.nightly;
+  EXPECT_EQ(o.what + o.out + o.model + o.baseline + o.today, "partsomb.toml2026-11-22");
+  EXPECT_THAT(o.assume, ElementsAre("a", "b"));
+  EXPECT_TRUE(o.strict);
+  EXPECT_EQ(o.timeout, 2.5);
+  EXPECT_EQ(o.jobs, 3);
+  const NightlyOptions shard = Parse({"nightly", "p", "--all", "--shard", "3/4"}).nightly;
+  EXPECT_EQ(shard.out, "ncsim-nightly");
+  EXPECT_TRUE(shard.all);
+  EXPECT_EQ(shard.shard, 3);
+  EXPECT_EQ(shard.shard_count, 4);
+  EXPECT_TRUE(Parse({"nightly", "p", "--merge"}).nightly.merge);
+}
+
+TEST_F(OptionsTest, BadUsageOfNightly) {
+  EXPECT_THAT(Error({"nightly"}), HasSubstr("nightly needs a folder or a manifest"));
+  for (const char* shard : {"4/4", "-1/4", "0", "0/0", "a/b", "1/2/3", "/", "0/1x", ""}) {
+    EXPECT_THAT(Error({"nightly", "p", "--shard", shard}), HasSubstr("--shard takes I/N")) << shard;
+  }
+  EXPECT_THAT(Error({"nightly", "p", "--merge", "--all"}), HasSubstr("--merge makes a night"));
+  EXPECT_THAT(Error({"nightly", "p", "--merge", "--shard", "0/1"}),
+              HasSubstr("--merge makes a night"));
+  EXPECT_THAT(Error({"nightly", "p", "--shard", "0/1", "--baseline", "b"}),
+              HasSubstr("--baseline goes with --merge"));
+  EXPECT_THAT(Error({"nightly", "p", "--today", "2026-02-30"}), HasSubstr("--today takes a day"));
+  EXPECT_THAT(Error({"nightly", "p", "--timeout", "0"}), HasSubstr("--timeout takes"));
+  EXPECT_THAT(Error({"nightly", "p", "--jobs", "0"}), HasSubstr("--jobs takes"));
+  EXPECT_THAT(Error({"nightly", "p", "--out", ""}), HasSubstr("--out takes a folder"));
 }
 
 TEST_F(OptionsTest, BadUsage) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "sim/app/program_dir.h"
+#include "sim/base/file.h"
 #include "sim/machine/load.h"
 
 namespace ncsim::app {
@@ -15,9 +16,8 @@ std::optional<std::string> JobPath(const std::string& program, const std::string
   if (!named.empty()) return named;
   const std::string appended = program + ".job.toml";
   const std::string replaced = fs::path(program).replace_extension(".job.toml").string();
-  std::error_code error;
-  const bool has_appended = fs::exists(appended, error);
-  const bool has_replaced = fs::exists(replaced, error);
+  const bool has_appended = IsThere(appended);
+  const bool has_replaced = IsThere(replaced);
   if (has_appended && has_replaced && appended != replaced) {
     *complaint = program + ": error: both " + appended + " and " + replaced +
                  " are there; name one of them with --job";
@@ -36,8 +36,7 @@ std::optional<std::string> ModelPath(const std::string& program, const std::stri
     return std::nullopt;
   }
   const fs::path beside = fs::path(job.path).parent_path() / wanted;
-  std::error_code error;
-  if (named.empty() && fs::is_regular_file(beside, error)) return beside.string();
+  if (named.empty() && IsFile(beside.string())) return beside.string();
   std::string path = machine::FindModel(wanted, ProgramDir());
   if (!path.empty()) return path;
   *complaint = program + ": error: there is no model '" + wanted +

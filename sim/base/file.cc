@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/base/file.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
-namespace ncsim {
+#include "sim/base/input_log.h"
 
-std::optional<std::string> ReadFile(const std::string& path, std::uint64_t max_bytes,
-                                    std::string* reason) {
-  namespace fs = std::filesystem;
+namespace ncsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::file_status LoggedStatus(const std::string& path) {
+  LogAsItIs(Input::Kind::kPlace, path);
+  std::error_code error;
+  return fs::status(path, error);
+}
+
+std::optional<std::string> ReadBytes(const std::string& path, std::uint64_t max_bytes,
+                                     std::string* reason) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) {
@@ -33,6 +45,40 @@ std::optional<std::string> ReadFile(const std::string& path, std::uint64_t max_b
     return std::nullopt;
   }
   return bytes;
+}
+
+}  // namespace
+
+std::optional<std::string> ReadFile(const std::string& path, std::uint64_t max_bytes,
+                                    std::string* reason) {
+  std::optional<std::string> bytes = ReadBytes(path, max_bytes, reason);
+  if (bytes) {
+    LogContent(path, *bytes);
+  } else {
+    LogAsItIs(Input::Kind::kContent, path);
+  }
+  return bytes;
+}
+
+bool IsThere(const std::string& path) { return fs::exists(LoggedStatus(path)); }
+bool IsFile(const std::string& path) { return fs::is_regular_file(LoggedStatus(path)); }
+bool IsFolder(const std::string& path) { return fs::is_directory(LoggedStatus(path)); }
+
+std::vector<std::string> NamesIn(const std::string& folder) {
+  LogAsItIs(Input::Kind::kListing, folder);
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    names.push_back(it->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::optional<std::string> EnvironmentVariable(const std::string& name) {
+  LogAsItIs(Input::Kind::kVariable, name);
+  const char* value = std::getenv(name.c_str());
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
 }  // namespace ncsim

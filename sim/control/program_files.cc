@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/program_files.h"
 
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "sim/base/diagnostics.h"
@@ -38,11 +36,6 @@ ProgramFiles::ProgramFiles(std::shared_ptr<const nc::Program> main,
     folders_.push_back(folder.empty() || folder.back() == '/' ? folder : folder + '/');
   }
   texts_.push_back(std::move(text));
-}
-
-bool ProgramFiles::IsFile(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
 }
 
 ProgramText* ProgramFiles::Load(const std::string& path) {

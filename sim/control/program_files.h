@@ -37,7 +37,6 @@ class ProgramFiles {
   ProgramText& main() { return *texts_.front(); }
   /// "" or with a '/' at the end.
   const std::vector<std::string>& folders() const { return folders_; }
-  static bool IsFile(const std::string& path);
   /// Null: not readable, and error() says why at the first attempt.
   ProgramText* Load(const std::string& path);
   /// "part's folder, 'subs'": for messages.

@@ -2,9 +2,8 @@
 #include "sim/control/sinumerik_programs.h"
 
 #include <array>
-#include <filesystem>
-#include <system_error>
 
+#include "sim/base/file.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::control {
@@ -67,14 +66,10 @@ SinumerikProgram SinumerikPrograms::FindFile(const std::string& name) {
 const std::map<std::string, std::string>& SinumerikPrograms::FilesOf(const std::string& folder) {
   const auto [place, added] = listings_.emplace(folder, std::map<std::string, std::string>());
   if (!added) return place->second;
-  std::error_code error;
-  std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error);
-  const std::filesystem::directory_iterator end;
   // Of names that differ in case alone, the first in the order of bytes.
-  for (; !error && entry != end && place->second.size() < kMaxListing; entry.increment(error)) {
-    const std::string file = entry->path().filename().string();
-    const auto [known, is_new] = place->second.emplace(nc::UpperName(file), file);
-    if (!is_new && file < known->second) known->second = file;
+  for (const std::string& file : NamesIn(folder.empty() ? "." : folder)) {
+    if (place->second.size() >= kMaxListing) break;
+    place->second.emplace(nc::UpperName(file), file);
   }
   return place->second;
 }

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "sim/base/file.h"
+
 namespace ncsim::control {
 namespace {
 
@@ -71,7 +73,7 @@ Subprogram Subprograms::FindFile(const std::vector<std::string>& names) {
         std::string path = folder;
         path += name;
         path += extension;
-        if (!ProgramFiles::IsFile(path)) continue;
+        if (!IsFile(path)) continue;
         ProgramText* text = files_.Load(path);
         if (text == nullptr) return {};
         return {text, text->index().programs().front().begin};

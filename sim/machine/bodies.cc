@@ -20,8 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxPackageXml = 1 << 20;
 
 bool IsPackage(const fs::path& folder, const std::string& name) {
-  std::error_code error;
-  if (folder.filename() == name && fs::is_directory(folder, error)) return true;
+  if (folder.filename() == name && IsFolder(folder.string())) return true;
   std::string reason;
   const auto text = ReadFile((folder / "package.xml").string(), kMaxPackageXml, &reason);
   if (!text) return false;
@@ -40,8 +39,7 @@ fs::path FindPackage(const std::string& name, const fs::path& urdf_path) {
   for (fs::path folder = fs::absolute(urdf_path, error).lexically_normal().parent_path(); !error;
        folder = folder.parent_path()) {
     if (IsPackage(folder, name)) return folder;
-    if (fs::is_directory(folder / name, error)) return folder / name;
-    error.clear();
+    if (IsFolder((folder / name).string())) return folder / name;
     if (folder == folder.parent_path()) break;
   }
   return {};

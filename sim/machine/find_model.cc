@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <vector>
 
+#include "sim/base/file.h"
 #include "sim/machine/load.h"
 
 namespace ncsim::machine {
@@ -13,10 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string FileOrEmpty(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error) ? path.string() : "";
-}
+std::string FileOrEmpty(const fs::path& path) { return IsFile(path.string()) ? path.string() : ""; }
 
 std::string FindIn(const fs::path& folder, const std::string& name) {
   const std::string with_extension = name + ".urdf";
@@ -24,16 +19,10 @@ std::string FindIn(const fs::path& folder, const std::string& name) {
     const std::string found = FileOrEmpty(folder / candidate);
     if (!found.empty()) return found;
   }
-  std::error_code error;
-  std::vector<fs::path> children;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    children.push_back(it->path());
-  }
-  std::sort(children.begin(), children.end());
-  for (const fs::path& child : children) {
+  for (const std::string& child : NamesIn(folder.string())) {
     for (const std::string& candidate : {name, with_extension}) {
       if (!candidate.ends_with(".urdf")) continue;
-      const std::string found = FileOrEmpty(child / candidate);
+      const std::string found = FileOrEmpty(folder / child / candidate);
       if (!found.empty()) return found;
     }
   }
@@ -47,8 +36,8 @@ std::string FindModel(const std::string& name, const std::string& program_dir) {
   const std::string direct = FileOrEmpty(name);
   if (!direct.empty()) return direct;
   std::vector<std::string> folders;
-  if (const char* list = std::getenv("NCSIM_MODELS")) {
-    std::string rest = list;
+  if (const auto list = EnvironmentVariable("NCSIM_MODELS")) {
+    std::string rest = *list;
     while (!rest.empty()) {
       const std::size_t colon = rest.find(':');
       folders.push_back(rest.substr(0, colon));

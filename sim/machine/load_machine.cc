@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "sim/base/file.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/machine/load.h"
@@ -33,8 +34,7 @@ constexpr double kDefaultRotaryRapid = Radians(20.0);
 std::string Beside(const std::string& urdf_path, const char* extension, const char* lacks,
                    Diagnostics* diagnostics) {
   const std::string path = fs::path(urdf_path).replace_extension(extension).string();
-  std::error_code error;
-  if (fs::exists(path, error)) return path;
+  if (IsThere(path)) return path;
   diagnostics->Warning(path, 0, 0, std::string("no such file: ") + lacks);
   return "";
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "sim/base/input_log.h"
 #include "sim/nc/scanner.h"
 
 namespace ncsim::nc {
@@ -96,6 +97,7 @@ std::shared_ptr<const Program> Program::FromText(std::string name, std::string t
 
 std::shared_ptr<const Program> Program::Load(const std::string& path, Diagnostics* diagnostics) {
   const auto fail = [&](int line, const std::string& message) {
+    LogAsItIs(Input::Kind::kContent, path);
     diagnostics->Error(path, line, 0, message);
     return nullptr;
   };
@@ -117,11 +119,13 @@ std::shared_ptr<const Program> Program::Load(const std::string& path, Diagnostic
     storage->address = address;
     storage->size = size;
   } else {
+    LogInput(Input::Kind::kContent, path, std::string(kUnsteady));
     const std::string why = ReadPipe(file.get(), &storage->owned);
     if (!why.empty()) return fail(0, "cannot be read: " + why);
   }
   const std::shared_ptr<const Program> program(new Program(path, std::move(storage)));
   const std::string_view text = program->text();
+  LogContent(path, text);
   if (program->begin() == text.size()) return fail(0, "is empty");
   for (std::size_t offset = 0; offset < text.size(); offset += kChunk) {
     const std::size_t nul = text.substr(offset, kChunk).find('\0');

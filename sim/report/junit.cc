@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sim/report/junit.h"
+
+#include <algorithm>
 #include <map>
 
 #include "sim/report/batch.h"
@@ -31,10 +34,36 @@ std::string Xml(std::string_view text) {
   return escaped;
 }
 
-std::string XmlLines(std::string_view text) {
-  std::string escaped;
-  for (const std::string& line : PrintableLines(text)) escaped += Xml(line) + "\n";
-  return escaped;
+bool Fails(const JunitCase& test) {
+  return std::any_of(test.problems.begin(), test.problems.end(),
+                     [](const JunitProblem& problem) { return problem.failure; });
+}
+
+void WriteProblem(const JunitProblem& problem, std::ostream& out) {
+  const std::string_view element = problem.failure ? "failure" : "error";
+  out << "   <" << element << " type=\"" << Xml(problem.type) << "\" message=\""
+      << Xml(problem.message) << "\"";
+  if (problem.lines.empty()) {
+    out << "/>\n";
+    return;
+  }
+  out << ">";
+  for (const std::string& line : problem.lines) out << Xml(line) << "\n";
+  out << "</" << element << ">\n";
+}
+
+void WriteCase(const JunitCase& test, std::ostream& out) {
+  out << "  <testcase classname=\"" << Xml(test.classname) << "\" name=\"" << Xml(test.name)
+      << "\">\n";
+  for (const JunitProblem& problem : test.problems) WriteProblem(problem, out);
+  if (!test.output.empty()) {
+    out << "   <system-out>";
+    for (std::size_t i = 0; i < test.output.size(); ++i) {
+      out << (i > 0 ? "\n" : "") << Xml(test.output[i]);
+    }
+    out << "</system-out>\n";
+  }
+  out << "  </testcase>\n";
 }
 
 /// Findings of one rule that stop a program, in its order.
@@ -43,76 +72,55 @@ struct Group {
   std::vector<const Finding*> findings;
 };
 
-class Writer {
- public:
-  Writer(const std::vector<ProgramReport>& programs, std::ostream& out)
-      : programs_(programs), out_(out) {}
-
-  void Write() {
-    std::size_t failures = 0, errors = 0;
-    for (const ProgramReport& program : programs_) {
-      const bool fails = program.result != nullptr && program.result->verdict == Verdict::kFail;
-      const bool passes = program.result != nullptr && program.result->verdict == Verdict::kPass;
-      failures += fails ? 1 : 0;
-      errors += fails || passes ? 0 : 1;
-    }
-    const std::string counts = "\" tests=\"" + std::to_string(programs_.size()) + "\" failures=\"" +
-                               std::to_string(failures) + "\" errors=\"" + std::to_string(errors) +
-                               "\">\n";
-    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"ncsim" << counts
-         << " <testsuite name=\"ncsim check" << counts;
-    for (const ProgramReport& program : programs_) WriteCase(program);
-    out_ << " </testsuite>\n</testsuites>\n";
+std::vector<JunitProblem> Problems(const ProgramReport& program) {
+  std::map<Rule, Group> groups;
+  for (const Finding& finding : program.result->findings) {
+    if (!Stops(finding)) continue;
+    Group& group = groups[finding.rule];
+    group.failure = group.failure || finding.severity == Severity::kError;
+    group.findings.push_back(&finding);
   }
-
- private:
-  void WriteCase(const ProgramReport& program) {
-    const CheckResult* result = program.result;
-    out_ << "  <testcase classname=\"" << Xml(result != nullptr ? result->model : "ncsim")
-         << "\" name=\"" << Xml(program.program) << "\">\n";
-    if (result == nullptr) {
-      out_ << "   <error type=\"not-checked\" message=\"the program could not be checked\">"
-           << XmlLines(program.messages) << "</error>\n";
-    } else {
-      WriteGroups(program);
-      out_ << "   <system-out>" << Xml(Summary(*result)) << "</system-out>\n";
-    }
-    out_ << "  </testcase>\n";
-  }
-
-  void WriteGroups(const ProgramReport& program) {
-    std::map<Rule, Group> groups;
-    for (const Finding& finding : program.result->findings) {
-      if (!Stops(finding)) continue;
-      Group& group = groups[finding.rule];
-      group.failure = group.failure || finding.severity == Severity::kError;
-      group.findings.push_back(&finding);
-    }
-    for (const auto& [rule, group] : groups) {
-      const std::string_view element = group.failure ? "failure" : "error";
-      out_ << "   <" << element << " type=\"" << Info(rule).id << "\" message=\""
-           << Xml(InALine(*group.findings.front(), *program.files)) << "\">";
-      for (std::size_t i = 0; i < group.findings.size(); ++i) {
-        if (i == kMaxFindingsOfRule) {
-          out_ << "... and " << group.findings.size() - i << " more\n";
-          break;
-        }
-        out_ << Xml(InALine(*group.findings[i], *program.files)) << "\n";
+  std::vector<JunitProblem> problems;
+  for (const auto& [rule, group] : groups) {
+    JunitProblem problem{group.failure,
+                         std::string(Info(rule).id),
+                         InALine(*group.findings.front(), *program.files),
+                         {}};
+    for (const Finding* finding : group.findings) {
+      if (problem.lines.size() == static_cast<std::size_t>(kMaxFindingsOfRule)) {
+        problem.lines.push_back(
+            "... and " + std::to_string(group.findings.size() - problem.lines.size()) + " more");
+        break;
       }
-      out_ << "</" << element << ">\n";
+      problem.lines.push_back(InALine(*finding, *program.files));
     }
-    // A verdict never hangs on the findings alone.
-    if (groups.empty() && program.result->verdict != Verdict::kPass) {
-      out_ << "   <error type=\"" << ToString(program.result->verdict) << "\" message=\""
-           << Xml(Summary(*program.result)) << "\"/>\n";
-    }
+    problems.push_back(std::move(problem));
   }
-
-  const std::vector<ProgramReport>& programs_;
-  std::ostream& out_;
-};
+  // A verdict never hangs on the findings alone.
+  if (problems.empty() && program.result->verdict != Verdict::kPass) {
+    problems.push_back(
+        {false, std::string(ToString(program.result->verdict)), Summary(*program.result), {}});
+  }
+  return problems;
+}
 
 }  // namespace
+
+void WriteJunitCases(const std::string& suite, const std::vector<JunitCase>& cases,
+                     std::ostream& out) {
+  std::size_t failures = 0, errors = 0;
+  for (const JunitCase& test : cases) {
+    failures += Fails(test) ? 1 : 0;
+    errors += !Fails(test) && !test.problems.empty() ? 1 : 0;
+  }
+  const std::string counts = "\" tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
+                             std::to_string(failures) + "\" errors=\"" + std::to_string(errors) +
+                             "\">\n";
+  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"ncsim" << counts
+      << " <testsuite name=\"" << Xml(suite) << counts;
+  for (const JunitCase& test : cases) WriteCase(test, out);
+  out << " </testsuite>\n</testsuites>\n";
+}
 
 std::string InALine(const Finding& finding, const SourceFiles& files) {
   std::string text = files.name(finding.where.file);
@@ -126,7 +134,20 @@ std::string InALine(const Finding& finding, const SourceFiles& files) {
 bool Stops(const Finding& finding) { return finding.severity != Severity::kWarning; }
 
 void WriteJunit(const std::vector<ProgramReport>& programs, std::ostream& out) {
-  Writer(programs, out).Write();
+  std::vector<JunitCase> cases;
+  for (const ProgramReport& program : programs) {
+    const CheckResult* result = program.result;
+    JunitCase test{result != nullptr ? result->model : "ncsim", program.program, {}, {}};
+    if (result == nullptr) {
+      test.problems.push_back({false, "not-checked", "the program could not be checked",
+                               PrintableLines(program.messages)});
+    } else {
+      test.problems = Problems(program);
+      test.output = {Summary(*result)};
+    }
+    cases.push_back(std::move(test));
+  }
+  WriteJunitCases("ncsim check", cases, out);
 }
 
 }  // namespace ncsim::report

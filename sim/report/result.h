@@ -61,6 +61,9 @@ std::string CountFindings(const std::vector<Finding>& findings);
 /// "1 block", "2 blocks".
 std::string Count(std::size_t number, const std::string& singular);
 
+/// "4.2 s", "3 min 55 s", "2 h 15 min 23 s".
+std::string Duration(double seconds);
+
 /// The last line of WriteText, without its end: "pass, stock not simulated: ...".
 std::string Summary(const CheckResult& result);
 

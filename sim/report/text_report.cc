@@ -105,6 +105,14 @@ void WriteCuts(const CheckResult& result, std::ostream& out) {
   }
 }
 
+}  // namespace
+
+std::string_view MotionTimeModel() {
+  return "rapids by trapezoid at the axes' rates and accelerations; feeds at the programmed feed, "
+         "slowed to the slowest axis, stopping only where the control stops; no time for tool "
+         "changes and spindle";
+}
+
 std::string Duration(double seconds) {
   if (!std::isfinite(seconds)) return "an unknown time";
   if (seconds < 60.0) return Fixed(seconds, 1) + " s";
@@ -114,14 +122,6 @@ std::string Duration(double seconds) {
   std::string text = hours > 0.0 ? Fixed(hours, 0) + " h " : "";
   return text + Fixed(minutes, 0) + " min " + Fixed(whole - 3600.0 * hours - 60.0 * minutes, 0) +
          " s";
-}
-
-}  // namespace
-
-std::string_view MotionTimeModel() {
-  return "rapids by trapezoid at the axes' rates and accelerations; feeds at the programmed feed, "
-         "slowed to the slowest axis, stopping only where the control stops; no time for tool "
-         "changes and spindle";
 }
 
 void SortFindings(std::vector<Finding>* findings) {
