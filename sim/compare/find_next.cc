@@ -70,7 +70,11 @@ bool GoOnAlike(const Run& reference, const Run& tested, const Step& at, const Ra
   }
   const Run ahead = Cut(reference, at.a, to);
   const Walk walk = WalkTogether(ahead, Cut(tested, at.b, b), radii);
-  return !walk.steps.empty() && walk.steps.back().a >= static_cast<double>(ahead.chords()) - 1e-9;
+  // The walk may end with the tested one beyond the reference's end, and the reference behind it.
+  return !walk.steps.empty() &&
+         Within(At(ahead, walk.steps.back().a), ahead.vertices.back(), radii) &&
+         Length(ahead, walk.steps.back().a, static_cast<double>(ahead.chords())) <=
+             2.0 * radii.position;
 }
 
 }  // namespace
