@@ -2,6 +2,7 @@
 #include "sim/base/input_log.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 class InputLogTest : public ::testing::Test {
  protected:
-  InputLogTest() : folder_(::testing::TempDir() + "/ncsim_input_log_test") {
+  InputLogTest() : folder_(::testing::TempDir() + "/ncsim_input_log_" + std::to_string(getpid())) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     StartInputLog();

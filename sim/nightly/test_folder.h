@@ -12,7 +12,8 @@ namespace ncsim::nightly {
 
 class TestFolder {
  public:
-  explicit TestFolder(const std::string& name) : path_(::testing::TempDir() + "/ncsim_" + name) {
+  explicit TestFolder(const std::string& name)
+      : path_(::testing::TempDir() + "/ncsim_" + name + "_" + std::to_string(getpid())) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

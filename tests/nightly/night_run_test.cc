@@ -52,7 +52,8 @@ struct Outcome {
 
 class NightlyTest : public ::testing::Test {
  protected:
-  NightlyTest() : root_(fs::path(::testing::TempDir()) / "ncsim_nightly_test") {
+  NightlyTest()
+      : root_(fs::path(::testing::TempDir()) / ("ncsim_nightly_" + std::to_string(getpid()))) {
     fs::remove_all(root_);
     fs::create_directories(root_ / "parts");
     fs::copy(fs::path(NCSIM_SOURCE_DIR) / "scenes/crash_gallery", root_ / "parts/gallery",
