@@ -2,6 +2,8 @@
 // A folder of its own for a test.
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
