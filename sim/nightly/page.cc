@@ -43,29 +43,6 @@ td{border:0;padding:1px 0}.number{display:inline-block;text-align:left;margin-ri
 td[data-name]:not(:empty)::before{content:attr(data-name) " ";color:var(--dim);font-size:13px}}
 )css";
 
-std::string Html(std::string_view text) {
-  std::string escaped;
-  for (const char c : report::Printable(text)) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string Tag(std::string_view colour, std::string_view text) {
   return "<span class=\"tag " + std::string(colour) + "\">" + std::string(text) + "</span>";
 }
@@ -79,9 +56,10 @@ void WriteList(const std::vector<std::string>& items, std::ostream& out) {
 
 std::vector<std::string> Details(const Row& row) {
   std::vector<std::string> items;
-  for (const std::string& line : report::PrintableLines(row.trouble)) items.push_back(Html(line));
+  for (const std::string& line : report::PrintableLines(row.trouble))
+    items.push_back(report::Markup(line));
   for (const Fall& fall : row.falls) {
-    items.push_back(Tag("unproven", "closer") + Html(InALine(fall)));
+    items.push_back(Tag("unproven", "closer") + report::Markup(InALine(fall)));
   }
   std::vector<const JudgedFinding*> order;
   for (const JudgedFinding& judged : row.findings) order.push_back(&judged);
@@ -93,15 +71,15 @@ std::vector<std::string> Details(const Row& row) {
     const char* colour = std::array{"fail", "unproven", ""}.at(order[i]->rank());
     std::string item = order[i]->is_new ? Tag("fail", "new") : "";
     if (!order[i]->counts()) item += Tag("pass", "accepted");
-    item += Tag(colour, Html(finding.severity)) + Html(InALine(finding));
-    if (!order[i]->counts()) item += " (" + Html(order[i]->accepted->reason) + ")";
+    item += Tag(colour, report::Markup(finding.severity)) + report::Markup(InALine(finding));
+    if (!order[i]->counts()) item += " (" + report::Markup(order[i]->accepted->reason) + ")";
     items.push_back(std::move(item));
   }
   if (order.size() > kMaxFindings) {
     items.push_back("... and " + std::to_string(order.size() - kMaxFindings) + " more");
   }
   for (const ReportFinding& finding : row.fixed) {
-    items.push_back(Tag("pass", "fixed") + Html(InALine(finding)));
+    items.push_back(Tag("pass", "fixed") + report::Markup(InALine(finding)));
   }
   return items;
 }
@@ -118,7 +96,7 @@ std::string Subject(const Row& row) {
   if (!row.falls.empty()) add("clearance");
   std::string text;
   for (const std::string& rule : rules) text += (text.empty() ? "" : ", ") + rule;
-  return Html(text);
+  return report::Markup(text);
 }
 
 void WriteRow(const Row& row, std::ostream& out) {
@@ -126,11 +104,11 @@ void WriteRow(const Row& row, std::ostream& out) {
   const std::string time = row.report ? report::Duration(row.report->time) : "";
   const std::string news = News(row);
   out << "<tr><td class=\"verdict " << row.verdict << "\">" << row.verdict << "</td><td><b>"
-      << Html(row.name) << "</b></td><td data-name=\"machine\">"
-      << (row.report ? Html(row.report->model) : "")
+      << report::Markup(row.name) << "</b></td><td data-name=\"machine\">"
+      << (row.report ? report::Markup(row.report->model) : "")
       << "</td><td class=\"number\" data-name=\"blocks\">" << blocks
       << "</td><td class=\"number\" data-name=\"time\">" << time
-      << "</td><td data-name=\"least clearance\">" << Html(LeastClearance(row))
+      << "</td><td data-name=\"least clearance\">" << report::Markup(LeastClearance(row))
       << "</td><td data-name=\"news\">" << news << "</td></tr>\n";
   const std::vector<std::string> details = Details(row);
   if (details.empty()) return;
@@ -176,11 +154,12 @@ void WriteNightPage(const Night& night, std::ostream& out) {
   for (const Row& row : night.rows) WriteRow(row, out);
   out << "</tbody></table>\n";
   std::vector<std::string> gone, baseline, notes;
-  for (const std::string& name : night.gone) gone.push_back(Html(name));
+  for (const std::string& name : night.gone) gone.push_back(report::Markup(name));
   for (const AcceptanceState& state : night.baseline) {
-    baseline.push_back((state.fault.empty() ? "" : Tag("unproven", "look")) + Html(InALine(state)));
+    baseline.push_back((state.fault.empty() ? "" : Tag("unproven", "look")) +
+                       report::Markup(InALine(state)));
   }
-  for (const std::string& note : night.notes) notes.push_back(Html(note));
+  for (const std::string& note : night.notes) notes.push_back(report::Markup(note));
   WriteSection("Programs that are gone", gone, out);
   WriteSection("Accepted findings", baseline, out);
   WriteSection("Notes", notes, out);

@@ -10,30 +10,6 @@
 namespace ncsim::report {
 namespace {
 
-/// Text of an element or attribute: Printable() leaves nothing that XML forbids.
-std::string Xml(std::string_view text) {
-  std::string escaped;
-  for (const char c : Printable(text)) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 bool Fails(const JunitCase& test) {
   return std::any_of(test.problems.begin(), test.problems.end(),
                      [](const JunitProblem& problem) { return problem.failure; });
@@ -41,25 +17,25 @@ bool Fails(const JunitCase& test) {
 
 void WriteProblem(const JunitProblem& problem, std::ostream& out) {
   const std::string_view element = problem.failure ? "failure" : "error";
-  out << "   <" << element << " type=\"" << Xml(problem.type) << "\" message=\""
-      << Xml(problem.message) << "\"";
+  out << "   <" << element << " type=\"" << Markup(problem.type) << "\" message=\""
+      << Markup(problem.message) << "\"";
   if (problem.lines.empty()) {
     out << "/>\n";
     return;
   }
   out << ">";
-  for (const std::string& line : problem.lines) out << Xml(line) << "\n";
+  for (const std::string& line : problem.lines) out << Markup(line) << "\n";
   out << "</" << element << ">\n";
 }
 
 void WriteCase(const JunitCase& test, std::ostream& out) {
-  out << "  <testcase classname=\"" << Xml(test.classname) << "\" name=\"" << Xml(test.name)
+  out << "  <testcase classname=\"" << Markup(test.classname) << "\" name=\"" << Markup(test.name)
       << "\">\n";
   for (const JunitProblem& problem : test.problems) WriteProblem(problem, out);
   if (!test.output.empty()) {
     out << "   <system-out>";
     for (std::size_t i = 0; i < test.output.size(); ++i) {
-      out << (i > 0 ? "\n" : "") << Xml(test.output[i]);
+      out << (i > 0 ? "\n" : "") << Markup(test.output[i]);
     }
     out << "</system-out>\n";
   }
@@ -117,7 +93,7 @@ void WriteJunitCases(const std::string& suite, const std::vector<JunitCase>& cas
                              std::to_string(failures) + "\" errors=\"" + std::to_string(errors) +
                              "\">\n";
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"ncsim" << counts
-      << " <testsuite name=\"" << Xml(suite) << counts;
+      << " <testsuite name=\"" << Markup(suite) << counts;
   for (const JunitCase& test : cases) WriteCase(test, out);
   out << " </testsuite>\n</testsuites>\n";
 }

@@ -2,34 +2,10 @@
 #include "sim/report/page.h"
 
 #include "sim/report/packed.h"
+#include "sim/report/printable.h"
 #include "sim/report/viewer.h"
 
 namespace ncsim::report {
-namespace {
-
-/// Text of an HTML element.
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        escaped.push_back(static_cast<unsigned char>(c) < ' ' ? ' ' : c);
-    }
-  }
-  return escaped;
-}
-
-}  // namespace
-
 void WriteHtml(const Page& page, std::ostream& out) {
   const std::string_view index = ViewerIndex();
   std::size_t at = 0;
@@ -42,7 +18,7 @@ void WriteHtml(const Page& page, std::ostream& out) {
     at = found + mark.size();
   };
   fill("title", "<title>",
-       Escaped(std::string(ToString(page.result->verdict)) + ": " + page.result->program) +
+       Markup(std::string(ToString(page.result->verdict)) + ": " + page.result->program) +
            " - ncsim",
        "</title>");
   fill("style", "<style>", ViewerStyle(), "</style>");

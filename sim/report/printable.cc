@@ -59,6 +59,29 @@ std::string Printable(std::string_view text) {
   return result;
 }
 
+std::string Markup(std::string_view text) {
+  std::string escaped;
+  for (const char c : Printable(text)) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
 std::vector<std::string> PrintableLines(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {

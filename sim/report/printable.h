@@ -14,6 +14,9 @@ namespace ncsim::report {
 /// '?'. Tabs stay.
 std::string Printable(std::string_view text);
 
+/// Printable() as text of an XML or HTML element or attribute: nothing is left that XML forbids.
+std::string Markup(std::string_view text);
+
 /// The lines of `text`, each Printable(), without empty ones.
 std::vector<std::string> PrintableLines(std::string_view text);
 
