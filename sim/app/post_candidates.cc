@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace ncsim::app {
 namespace {
@@ -71,7 +72,15 @@ std::optional<Judged> FindPassing(const JudgeWays& judge, int limit,
     } else {
       choice[operation] = next;
     }
-    judged = judge(choice);
+    std::optional<Judged> candidate = judge(choice);
+    if (!candidate) {  // What could be posted before it can be again.
+      notes->push_back("operation " + std::to_string(operation) + ": way " +
+                       std::to_string(next + 1) + " cannot be posted; the first one is taken");
+      given_up.insert(operation);
+      choice.erase(operation);
+      candidate = judge(choice);
+    }
+    judged = std::move(candidate);
   }
   return judged;
 }

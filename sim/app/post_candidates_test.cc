@@ -108,6 +108,22 @@ TEST(FindPassing, NoMoreThanTheLimit) {
   EXPECT_EQ(bench.judged.size(), 3u);
 }
 
+TEST(FindPassing, AWayThatCannotBePostedIsGivenUp) {
+  Bench bench;
+  bench.bad = {{1, 0}, {2, 0}};
+  std::vector<std::string> notes;
+  const auto found = FindPassing(
+      [&](const Choice& choice) -> std::optional<Judged> {
+        if (choice.count(1) > 0) return std::nullopt;
+        return bench.Judge(choice);
+      },
+      40, &notes);
+  ASSERT_TRUE(found);
+  EXPECT_THAT(Taken(*found), ElementsAre(0, 1));
+  EXPECT_EQ(found->outcome.result->findings.size(), 1u);  // That of operation 1 is still told.
+  EXPECT_EQ(notes[1], "operation 1: way 2 cannot be posted; the first one is taken");
+}
+
 TEST(FindPassing, WhatCannotBePosted) {
   std::vector<std::string> notes;
   EXPECT_FALSE(FindPassing([](const Choice&) { return std::nullopt; }, 40, &notes));

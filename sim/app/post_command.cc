@@ -71,6 +71,7 @@ class Posting {
     std::vector<std::string> notes;
     std::optional<Judged> best =
         FindPassing([&](const auto& choice) { return Candidate(options, choice); }, limit, &notes);
+    if (!best) Say(unposted_);
     if (!best || !Write(best->program, out)) return kExitBadInput;
     for (const std::string& note : notes) Complain(name_ + ": note: " + note);
     std::ostream& report = options_.out.empty() ? *err_ : out;
@@ -250,9 +251,11 @@ class Posting {
     Diagnostics diagnostics;
     Judged judged;
     judged.program = post::PostProgram(posting_, options, &diagnostics);
-    // Each candidate has the same warnings.
-    if (choice.empty() || diagnostics.has_errors()) {
-      if (!Say(diagnostics)) return std::nullopt;
+    // Each candidate has the same warnings; that another way cannot be posted is a note.
+    if (choice.empty() && !Say(diagnostics)) return std::nullopt;
+    if (diagnostics.has_errors()) {
+      unposted_ = diagnostics;
+      return std::nullopt;
     }
     if (!checked_) return judged;
     if (!WriteOperations(judged.program)) return std::nullopt;
@@ -333,6 +336,7 @@ class Posting {
   const PostCommandOptions& options_;
   std::ostream* err_;
   Diagnostics diagnostics_;
+  Diagnostics unposted_;  ///< Of the last other way that could not be posted.
   machine::Job job_;
   bool checked_ = false;
   std::string model_path_;
