@@ -20,9 +20,7 @@ std::vector<int> JointsToRoot(const KinematicTree& tree, int link) {
 }  // namespace
 
 Eigen::Vector3d Turn(const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& v) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return c * v + s * axis.cross(v) + (1.0 - c) * axis.dot(v) * axis;
+  return Turn(axis, std::cos(angle), std::sin(angle), v);
 }
 
 Eigen::Vector3d ChainStep::Apply(double position, const Eigen::Vector3d& y) const {

@@ -40,5 +40,10 @@ class Chain {
 
 /// `v` turned by `angle` (rad, right-handed) about the unit vector `axis`.
 Eigen::Vector3d Turn(const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& v);
+/// The same, of the angle's cosine and sine.
+inline Eigen::Vector3d Turn(const Eigen::Vector3d& axis, double cosine, double sine,
+                            const Eigen::Vector3d& v) {
+  return cosine * v + sine * axis.cross(v) + (1.0 - cosine) * axis.dot(v) * axis;
+}
 
 }  // namespace ncsim::kinematics

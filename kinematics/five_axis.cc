@@ -116,9 +116,29 @@ Eigen::Isometry3d FiveAxis::SpindleInTable(const JointVector& q) const {
 
 void FiveAxis::TipInTable(const JointVector& q, double length, Eigen::Vector3d* p_BT_B,
                           Eigen::Vector3d* u_B) const {
-  const Eigen::Isometry3d X_BS = SpindleInTable(q);
-  *u_B = -X_BS.linear().col(2);
-  *p_BT_B = X_BS.translation() - length * *u_B;
+  const ToolPose pose = ToolInTable(q, length);
+  *p_BT_B = pose.tip;
+  *u_B = pose.axis;
+}
+
+// As SpindleInTable, for a point and a direction.
+FiveAxis::ToolPose FiveAxis::ToolInTable(const JointVector& q, double length) const {
+  ToolPose pose;
+  pose.axis = -X_BS0_.linear().col(2);
+  pose.tip = X_BS0_.translation() - length * pose.axis;
+  Eigen::Vector3d slide =
+      directions_ * Eigen::Vector3d(q[linear_[0]], q[linear_[1]], q[linear_[2]]);
+  for (std::size_t k = 0; k < rotary_.size(); ++k) {
+    const RotaryAxis& axis = axes_[k];
+    const double c = std::cos(q[rotary_[k]]);
+    const double s = std::sin(q[rotary_[k]]);
+    pose.radii[k] = axis.direction.cross(pose.axis).norm();
+    pose.axis = Turn(axis.direction, c, s, pose.axis);
+    pose.tip = axis.point + Turn(axis.direction, c, s, pose.tip - axis.point);
+    if (BeforeLinear(k)) slide = Turn(axis.direction, c, s, slide);
+  }
+  pose.tip += slide;
+  return pose;
 }
 
 void FiveAxis::SolveLinear(const Eigen::Vector3d& p_BT_B, double length, JointVector* q) const {
@@ -139,14 +159,15 @@ std::array<double, 2> FiveAxis::TipRadii(const Eigen::Vector3d& p_BT_B, double l
   std::array<double, 2> radii{};
   // Axes on the table's side of the linear joints: from B; those on the tool's side: from S.
   Eigen::Vector3d p = p_BT_B;
-  for (std::size_t k = rotary_.size(); k-- > 0 && BeforeLinear(k);) {
+  std::size_t k = rotary_.size();
+  while (k-- > 0 && BeforeLinear(k)) {
     radii[k] = axes_[k].Distance(p);
-    p = axes_[k].TurnPoint(-q[rotary_[k]], p);
+    if (k > 0 && BeforeLinear(k - 1)) p = axes_[k].TurnPoint(-q[rotary_[k]], p);
   }
   Eigen::Vector3d tip = X_BS0_.translation() + length * X_BS0_.linear().col(2);
-  for (std::size_t k = 0; k < rotary_.size() && !BeforeLinear(k); ++k) {
+  for (k = 0; k < rotary_.size() && !BeforeLinear(k); ++k) {
     radii[k] = axes_[k].Distance(tip);
-    tip = axes_[k].TurnPoint(q[rotary_[k]], tip);
+    if (k + 1 < rotary_.size()) tip = axes_[k].TurnPoint(q[rotary_[k]], tip);
   }
   return radii;
 }
@@ -157,7 +178,7 @@ std::array<double, 2> FiveAxis::RadiiAboutTip(const Eigen::Vector3d& v_S,
   Eigen::Vector3d v = X_BS0_.linear() * v_S;
   for (std::size_t k = 0; k < rotary_.size(); ++k) {
     radii[k] = axes_[k].direction.cross(v).norm();
-    v = Turn(axes_[k].direction, q[rotary_[k]], v);
+    if (k + 1 < rotary_.size()) v = Turn(axes_[k].direction, q[rotary_[k]], v);
   }
   return radii;
 }

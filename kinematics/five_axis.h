@@ -52,6 +52,15 @@ class FiveAxis {
   void TipInTable(const JointVector& q, double length, Eigen::Vector3d* p_BT_B,
                   Eigen::Vector3d* u_B) const;
 
+  /// The same, with the distance from each rotary axis, in rotary() order, of a unit vector along
+  /// the tool that starts on it: RadiiAboutTip of Z.
+  struct ToolPose {
+    Eigen::Vector3d tip = Eigen::Vector3d::Zero();
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+    std::array<double, 2> radii{};
+  };
+  ToolPose ToolInTable(const JointVector& q, double length) const;
+
   /// Writes into the linear joints of `q` what puts the tip on `p_BT_B`, at the rotary positions
   /// that `q` has. Exact: the tip depends on the linear joints affinely.
   void SolveLinear(const Eigen::Vector3d& p_BT_B, double length, JointVector* q) const;

@@ -7,7 +7,11 @@
 
 namespace ncsim::kinematics {
 
-double Chord(double angle) { return 2.0 * std::sin(0.5 * std::min(angle, std::numbers::pi)); }
+double Chord(double angle) {
+  constexpr double kSmall = 2e-3;  // rad: the arc is longer by a part in six million
+  if (angle < kSmall) return angle;
+  return 2.0 * std::sin(0.5 * std::min(angle, std::numbers::pi));
+}
 
 RelativePath::RelativePath(const KinematicTree& tree, int link_b, int link_a)
     : chain_(tree, link_b, link_a) {

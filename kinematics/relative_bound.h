@@ -20,7 +20,8 @@ struct Extent {
 };
 
 /// Greatest distance between two positions of a point at radius 1 that turns by at most `angle` (>=
-/// 0, rad): the chord, and the diameter from half a turn on.
+/// 0, rad): the chord, and the diameter from half a turn on; never less, and for small angles the
+/// arc.
 double Chord(double angle);
 
 /// See RelativePath::Weights.

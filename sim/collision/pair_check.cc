@@ -229,7 +229,8 @@ SweepResult PairCheck::Sweep(Judgement* judgement) {
 // The depth that a rapid may keep: it is where the feed before it left the tool.
 double PairCheck::AllowedDepth() {
   if (!cutting() || !IsRapid(motion())) return 0.0;
-  const double start = carry_->reference.wants_start() ? DepthAt(motion(), 0.0) : 0.0;
+  const bool inside = carry_->reference.wants_start() && !sweep_.StartsClear(motion());
+  const double start = inside ? DepthAt(motion(), 0.0) : 0.0;
   return carry_->reference.OnRapid(motion().facts.cycle, start);
 }
 
@@ -400,7 +401,8 @@ void PairCheck::Place(const PathPoint& at, OpenRun* run) {
 }
 
 void PairCheck::Close(OpenRun* run) {
-  if (run->open) outcome_.runs.push_back(std::move(run->run));
+  if (!run->open) return;
+  outcome_.runs.push_back(std::move(run->run));
   *run = OpenRun();
 }
 

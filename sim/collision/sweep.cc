@@ -149,6 +149,11 @@ bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
   return true;
 }
 
+bool PairSweep::StartsClear(const Motion& motion) {
+  const bool known = known_.outside && SamePose(known_.q, motion.q0());
+  return (known && known_.clearance > 0.0) || Stand(motion, Watch());
+}
+
 // A clearance near one pose of the grid; programs come back to it.
 std::optional<double> PairSweep::Recall(const motion::PairTravel::Neighbourhood& around) const {
   if (!around.key.has_value()) return std::nullopt;

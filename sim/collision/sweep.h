@@ -78,6 +78,9 @@ class PairSweep {
   /// nothing is known.
   SweepResult Check(const motion::Motion& motion, const Watch& watch);
 
+  /// Is the pair known to be, or found to be, out of contact where the motion starts?
+  bool StartsClear(const motion::Motion& motion);
+
   /// As Check, but leaves the pair where it was before the motion.
   SweepResult Probe(const motion::Motion& motion, const Watch& watch);
 

@@ -27,10 +27,8 @@ struct Measures {
 
 Measures OfTcp(const TcpCurve& curve) {
   const kinematics::FiveAxis& control = curve.frame->control;
-  JointVector q = RotaryAt(curve, 0.5);
-  control.SolveLinear(TipPoint(curve, 0.5), curve.frame->length, &q);
   // Within half the way of the middle, so within twice that of an end.
-  const TcpReach reach = Reach(curve, q, 0.5, 0.5);
+  const TcpReach reach = Reach(curve, RotaryAt(curve, 0.5), 0.5, 0.5);
   Measures measures;
   measures.joints = 2.0 * reach.deviation;
   double squares = 0.0;
@@ -86,13 +84,7 @@ Travel::Box Union(const Travel::Box& a, const Travel::Box& b) {
 /// Measures motions of one tool.
 class Meter {
  public:
-  /// Tip and axis in the table's frame; of a unit vector along the tool, how far it is from each
-  /// rotary axis.
-  struct ToolPose {
-    Eigen::Vector3d tip = Eigen::Vector3d::Zero();
-    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-    std::array<double, 2> radii{};
-  };
+  using ToolPose = kinematics::FiveAxis::ToolPose;
 
   Meter(const kinematics::KinematicTree& tree, const kinematics::FiveAxis* five_axis, double length)
       : tree_(tree), five_axis_(five_axis), length_(length) {
@@ -102,11 +94,7 @@ class Meter {
   }
 
   ToolPose ToolAt(const JointVector& q) const {
-    ToolPose pose;
-    if (five_axis_ == nullptr) return pose;
-    five_axis_->TipInTable(q, length_, &pose.tip, &pose.axis);
-    pose.radii = five_axis_->RadiiAboutTip(Eigen::Vector3d::UnitZ(), q);
-    return pose;
+    return five_axis_ == nullptr ? ToolPose() : five_axis_->ToolInTable(q, length_);
   }
 
   /// Of a motion between two poses of the tool.
