@@ -161,20 +161,32 @@ std::optional<double> PairSweep::Recall(const motion::PairTravel::Neighbourhood&
   return found == memory_.end() ? std::nullopt : std::optional<double>(found->second);
 }
 
-std::optional<double> PairSweep::Explore(const motion::PairTravel::Neighbourhood& around,
+std::optional<double> PairSweep::Explore(const motion::PairTravel& bound,
+                                         const motion::PairTravel::Neighbourhood& around,
                                          double enough) {
   DistanceGoal goal;
   goal.relative_gap = 0.1;
   goal.stop_above = enough + 0.5 * ahead_;
   if (!around.key.has_value()) goal.stop_below = enough;
   ++queries_;
-  const std::optional<Interval> clearance = engine_->Clearance(around.X_BA, goal);
+  const std::optional<Interval> clearance = engine_->Clearance(bound.PoseOf(around), goal);
   if (!clearance.has_value()) return std::nullopt;
   if (around.key.has_value()) {
     if (memory_.size() >= kMemory) memory_.clear();
     memory_[*around.key] = clearance->lower;
   }
   return clearance->lower;
+}
+
+// The neighbourhood of a stretch; that of the last one asked for at its level is kept.
+const motion::PairTravel::Neighbourhood& PairSweep::Stretch(const motion::PairTravel& bound,
+                                                            std::size_t at, std::size_t level,
+                                                            int grid) {
+  if (stretches_.size() <= level) stretches_.resize(bound.levels());
+  Stretched& last = stretches_[level];
+  const std::size_t end = bound.StretchEnd(at, level);
+  if (last.end != end || last.grid != grid) last = {end, grid, bound.Around(at, level, grid)};
+  return last.around;
 }
 
 // The motions from `at` on that stay in the neighbourhood of one pose, clear of what is needed. The
@@ -185,13 +197,13 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
   bool explored = false;
   for (std::size_t level = std::min(bound.levels(), level_ + 2); level-- > 0;) {
     if (bound.StretchEnd(at, level) <= path_end) break;  // the path gets further
-    const motion::PairTravel::Neighbourhood around = bound.Around(at, level, grid);
+    const motion::PairTravel::Neighbourhood& around = Stretch(bound, at, level, grid);
     const double enough = Spared(watch) + around.radius;
     std::optional<double> clearance = Recall(around);
     if ((!clearance.has_value() || *clearance <= enough) && around.radius < 0.9 * ahead_ &&
         !explored) {
       explored = true;
-      clearance = Explore(around, enough);
+      clearance = Explore(bound, around, enough);
     }
     if (clearance.has_value() && *clearance > enough) {
       around_.Helped();
@@ -204,20 +216,27 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
   return {at, 0.0, 0.0};
 }
 
-// The motions from `at` on that a look at the end of one of them covers backward.
+// The motions from `at` on that a look at the end of one of them covers backward. Where that leaves
+// a gap, it is looked into the middle of it: what was seen beyond is kept, and serves later.
 PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::PairTravel& bound,
                                  std::size_t at, const Watch& watch) {
-  std::size_t next = bound.Furthest(at, ahead_);
-  while (next > at) {
+  for (;;) {
+    std::size_t next = bound.Furthest(at, ahead_);
+    if (!ahead_seen_.empty()) {
+      const auto [end, clearance] = ahead_seen_.back();
+      const double left = clearance - bound.Between(at, end);
+      if (left > Spared(watch)) {
+        ahead_seen_.pop_back();
+        return {end, left, clearance};
+      }
+      const std::size_t middle = bound.Furthest(at, 0.5 * (Spared(watch) - left));
+      next = std::min({next, std::max(middle, at + 1), end - 1});
+    }
+    if (next == at) return {at, 0.0, 0.0};
     const std::optional<Interval> clearance = Look(travel[next - 1], 1.0, watch, ahead_);
-    if (!clearance.has_value()) break;
-    const double left = clearance->lower - bound.Between(at, next);
-    if (left > Spared(watch)) return {next, left, clearance->lower};
-    const std::size_t shorter = bound.Furthest(at, ahead_);
-    if (shorter >= next) break;
-    next = shorter;
+    if (!clearance.has_value()) return {at, 0.0, 0.0};
+    ahead_seen_.push_back({next, clearance->lower});
   }
-  return {at, 0.0, 0.0};
 }
 
 PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion::PairTravel& bound,
@@ -228,6 +247,10 @@ PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion:
   while (crossing.end < travel.size()) {
     const std::size_t at = crossing.end;
     if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
+    for (; !ahead_seen_.empty() && ahead_seen_.back().end <= at; ahead_seen_.pop_back()) {
+      const auto [end, clearance] = ahead_seen_.back();
+      if (end == at) known_.clearance = std::max(known_.clearance, clearance);
+    }
     Step step;
     step.end = bound.Furthest(at, known_.clearance - Spared(watch));
     step.least = step.clearance = known_.clearance - bound.Between(at, step.end);

@@ -154,7 +154,10 @@ class PairSweep {
   double Spared(const Watch& watch) const;
   bool Stand(const motion::Motion& motion, const Watch& watch);
   std::optional<double> Recall(const motion::PairTravel::Neighbourhood& around) const;
-  std::optional<double> Explore(const motion::PairTravel::Neighbourhood& around, double enough);
+  std::optional<double> Explore(const motion::PairTravel& bound,
+                                const motion::PairTravel::Neighbourhood& around, double enough);
+  const motion::PairTravel::Neighbourhood& Stretch(const motion::PairTravel& bound, std::size_t at,
+                                                   std::size_t level, int grid);
   Step Around(const motion::PairTravel& bound, std::size_t at, std::size_t path_end,
               const Watch& watch);
   Step Ahead(const motion::Travel& travel, const motion::PairTravel& bound, std::size_t at,
@@ -179,6 +182,18 @@ class PairSweep {
   Interval least_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const motion::Motion* least_motion_ = nullptr;
   std::vector<motion::Span> stack_;
+  /// What a look ahead showed: the clearance behind the motions before `end`.
+  struct Seen {
+    std::size_t end;
+    double clearance;
+  };
+  std::vector<Seen> ahead_seen_;  // of the travel at hand, the nearest last
+  struct Stretched {
+    std::size_t end = 0;
+    int grid = 0;
+    motion::PairTravel::Neighbourhood around;
+  };
+  std::vector<Stretched> stretches_;  // the last one of each level
   Patience around_;
   std::size_t level_ = 0;  // of the last stretch that was settled around a pose
   std::map<motion::PairTravel::GridKey, double> memory_;  // never more than the clearance

@@ -221,8 +221,9 @@ PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, i
   const Travel::Box& box = travel_->box(level, i / (Travel::kLeaf << level));
   Neighbourhood around;
   around.end = StretchEnd(i, level);
-  if (!pair_->tool_to_table || !pair_->revolved) {
-    JointVector q = 0.5 * (box.lower + box.upper);
+  if (!by_tip()) {
+    JointVector& q = around.q;
+    q = 0.5 * (box.lower + box.upper);
     const kinematics::RelativePath& path = pair_->path;
     const std::vector<int>& joints = path.joint_indices();
     if (joints.size() < std::tuple_size_v<GridKey>) {
@@ -237,20 +238,26 @@ PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, i
       }
     }
     const JointVector astray = (box.upper - q).cwiseMax(q - box.lower).cwiseMax(0.0);
-    around.X_BA = pair_->path.Pose(q);
     around.radius = kSumError + pair_->path.Bound(q, pair_->a, astray);
     return around;
   }
   const Eigen::Vector3d middle = 0.5 * (box.axis_lower + box.axis_upper);
-  const Eigen::Vector3d axis = middle.norm() > 0.1 ? middle.normalized() : Eigen::Vector3d::UnitZ();
-  const double turn = 0.5 * (box.axis_upper - box.axis_lower).norm() + (middle - axis).norm();
-  around.X_BA.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -axis).toRotationMatrix();
-  around.X_BA.translation() = 0.5 * (box.tip_lower + box.tip_upper) + travel_->tool_length() * axis;
-  around.X_BA = pair_->X_BTable * around.X_BA * pair_->X_SA;
+  around.axis = middle.norm() > 0.1 ? middle.normalized() : Eigen::Vector3d::UnitZ();
+  around.tip = 0.5 * (box.tip_lower + box.tip_upper);
+  const double turn =
+      0.5 * (box.axis_upper - box.axis_lower).norm() + (middle - around.axis).norm();
   around.radius =
       kSumError + 0.5 * (box.tip_upper - box.tip_lower).norm() + std::min(turn, 2.0) * reach_;
   return around;
+}
+
+Eigen::Isometry3d PairTravel::PoseOf(const Neighbourhood& around) const {
+  if (!by_tip()) return pair_->path.Pose(around.q);
+  Eigen::Isometry3d X;
+  X.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -around.axis).toRotationMatrix();
+  X.translation() = around.tip + travel_->tool_length() * around.axis;
+  return pair_->X_BTable * X * pair_->X_SA;
 }
 
 // The totals only grow: strides that double, then halves.

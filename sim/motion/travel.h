@@ -78,11 +78,15 @@ class PairTravel {
   using GridKey = std::array<int, 7>;
   /// A pose, and how far from it any point of A is at any pose of the motions up to `end`.
   struct Neighbourhood {
-    Eigen::Isometry3d X_BA;
     double radius = 0.0;  ///< mm
     std::size_t end = 0;
     std::optional<GridKey> key;  ///< For pairs whose poses a program comes back to.
+    /// The pose: tip and axis of the tool in the table's frame, or joints.
+    Eigen::Vector3d tip, axis;
+    JointVector q;
   };
+  /// X_BA.
+  Eigen::Isometry3d PoseOf(const Neighbourhood& around) const;
   /// Behind the stretch of `level` that motion i is in.
   std::size_t StretchEnd(std::size_t i, std::size_t level) const;
   /// Of the stretch of `level` that motion i is in. `grid`: the spacing of the grid is 2^grid mm.
@@ -90,6 +94,8 @@ class PairTravel {
   std::size_t levels() const { return travel_->levels(); }
 
  private:
+  bool by_tip() const { return pair_->tool_to_table && pair_->revolved; }
+
   const PairPath* pair_;
   const Travel* travel_;
   std::vector<double> weights_;

@@ -74,7 +74,7 @@ void Hold(const std::vector<Motion>& motions, const PairPath& pair, const Travel
       const PairTravel::Neighbourhood around = bound.Around(i, level, 3);
       ASSERT_GT(around.end, i);
       for (const JointVector& q : Poses(motions[i])) {
-        ASSERT_LE(moved(around.X_BA, pair.path.Pose(q)), around.radius);
+        ASSERT_LE(moved(bound.PoseOf(around), pair.path.Pose(q)), around.radius);
       }
     }
   }
