@@ -14,9 +14,12 @@ using motion::Span;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGapOfBound = 0.2;
+constexpr double kGapOfSpare = 0.4;       // of what is beyond the need: less takes a look longer
 constexpr double kCutOut = 0.9;           // of what a clearance covers if the travel is even
 constexpr std::size_t kMemory = 20000;    // poses of a pair
 constexpr double kFarthest = 1e5;         // mm, worth looking ahead
+constexpr double kOfAhead = 0.9;          // neighbourhoods up to this part of it are looked at
+constexpr double kStart = 0.02;           // mm, of clearance at a start that is near anyway
 constexpr double kFirstContact = 1e-3;    // of the motion
 constexpr double kOnset = 1e-6;           // of the motion, where it begins
 constexpr double kOnsetGap = 1e-5;        // mm
@@ -30,6 +33,11 @@ constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does 
 
 PathPoint Middle(const Span& span) {
   return {0.5 * (span.s0 + span.s1), 0.5 * (span.lag0 + span.lag1)};
+}
+
+// Of the grid whose places serve for clearances of `ahead` mm.
+int GridOf(double ahead) {
+  return static_cast<int>(std::floor(std::log2(std::max(0.4 * ahead, 1e-3))));
 }
 
 // The half of a (s, lag) box that matters more: cut the side along which the pair moves further.
@@ -116,7 +124,7 @@ double PairSweep::Need(const Sweep& sweep) const {
 std::optional<Interval> PairSweep::Look(const Motion& motion, double s, const Watch& watch,
                                         double enough) {
   DistanceGoal goal;
-  goal.relative_gap = 0.2;
+  goal.relative_gap = kGapOfSpare;
   goal.floor = Spared(watch);
   if (!watch.track || has_least()) goal.stop_above = goal.floor + enough;
   ++queries_;
@@ -138,9 +146,8 @@ double PairSweep::Spared(const Watch& watch) const { return std::max(0.0, Need(w
 
 // Takes its stand at the start of a motion: clear of what is needed, and neither body inside the
 // other?
-bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
-  if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
-  const std::optional<Interval> clearance = Look(motion, 0.0, watch, ahead_);
+bool PairSweep::Stand(const Motion& motion, const Watch& watch, double enough) {
+  const std::optional<Interval> clearance = Look(motion, 0.0, watch, enough);
   if (!clearance.has_value() || clearance->lower <= Spared(watch) ||
       engine_->Contained(path_->path.Pose(motion.At(0.0)))) {
     return false;
@@ -149,9 +156,31 @@ bool PairSweep::Stand(const Motion& motion, const Watch& watch) {
   return true;
 }
 
+// As Stand; or in the middle of a stretch around the motion, which says something of all of it.
+std::optional<PairSweep::Step> PairSweep::Settle(const motion::PairTravel& bound,
+                                                 const Motion& motion, std::size_t at,
+                                                 const Watch& watch) {
+  const int grid = GridOf(ahead_);
+  for (std::size_t level = bound.levels(); level-- > 0 && (!watch.track || has_least());) {
+    const motion::PairTravel::Neighbourhood& around = Stretch(bound, at, level, grid);
+    if (around.radius >= kOfAhead * ahead_) continue;
+    const double enough = Spared(watch) + around.radius;
+    const std::optional<double> clearance = Explore(bound, around, enough);
+    if (!clearance.has_value() || *clearance <= enough ||
+        engine_->Contained(bound.PoseOf(around))) {
+      break;
+    }
+    level_ = level;
+    const double left = *clearance - around.radius;
+    return Step{around.end, left, left};
+  }
+  if (!Stand(motion, watch, ahead_)) return std::nullopt;
+  return Step{at, known_.clearance, known_.clearance};
+}
+
 bool PairSweep::StartsClear(const Motion& motion) {
   const bool known = known_.outside && SamePose(known_.q, motion.q0());
-  return (known && known_.clearance > 0.0) || Stand(motion, Watch());
+  return (known && known_.clearance > 0.0) || Stand(motion, Watch(), kStart);
 }
 
 // A clearance near one pose of the grid; programs come back to it.
@@ -193,14 +222,14 @@ const motion::PairTravel::Neighbourhood& PairSweep::Stretch(const motion::PairTr
 // neighbourhood is connected, and the pair is outside each other at `at`, so nothing is contained.
 PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t at,
                                   std::size_t path_end, const Watch& watch) {
-  const int grid = static_cast<int>(std::floor(std::log2(std::max(0.4 * ahead_, 1e-3))));
+  const int grid = GridOf(ahead_);
   bool explored = false;
   for (std::size_t level = std::min(bound.levels(), level_ + 2); level-- > 0;) {
     if (bound.StretchEnd(at, level) <= path_end) break;  // the path gets further
     const motion::PairTravel::Neighbourhood& around = Stretch(bound, at, level, grid);
     const double enough = Spared(watch) + around.radius;
     std::optional<double> clearance = Recall(around);
-    if ((!clearance.has_value() || *clearance <= enough) && around.radius < 0.9 * ahead_ &&
+    if ((!clearance.has_value() || *clearance <= enough) && around.radius < kOfAhead * ahead_ &&
         !explored) {
       explored = true;
       clearance = Explore(bound, around, enough);
@@ -242,30 +271,41 @@ PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::Pai
 PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion::PairTravel& bound,
                                      std::size_t begin, const Watch& watch) {
   Crossing crossing{begin, kInfinity};
+  if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
   const bool stands = known_.outside && SamePose(known_.q, travel[begin].q0());
-  if (!stands && !Stand(travel[begin], watch)) return crossing;
-  while (crossing.end < travel.size()) {
-    const std::size_t at = crossing.end;
-    if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
-    for (; !ahead_seen_.empty() && ahead_seen_.back().end <= at; ahead_seen_.pop_back()) {
-      const auto [end, clearance] = ahead_seen_.back();
-      if (end == at) known_.clearance = std::max(known_.clearance, clearance);
-    }
-    Step step;
-    step.end = bound.Furthest(at, known_.clearance - Spared(watch));
-    step.least = step.clearance = known_.clearance - bound.Between(at, step.end);
-    if (step.end < travel.size() && around_.Ready()) {
-      const Step around = Around(bound, at, step.end, watch);
-      if (around.end > step.end) step = around;
-    }
-    if (step.end == at) step = Ahead(travel, bound, at, watch);
-    if (step.end == at) break;
-    crossing.end = step.end;
-    crossing.least = std::min(crossing.least, step.least);
-    known_ = {step.clearance, true, travel[step.end - 1].q1()};
-    if (watch.track) least_.lower = std::min(least_.lower, step.least);
+  std::optional<Step> step;
+  if (!stands) {
+    step = Settle(bound, travel[begin], begin, watch);
+    if (!step.has_value()) return crossing;
+  }
+  if (stands || step->end == begin) step = Onward(travel, bound, begin, watch);
+  while (step->end > crossing.end) {
+    crossing.end = step->end;
+    crossing.least = std::min(crossing.least, step->least);
+    known_ = {step->clearance, true, travel[step->end - 1].q1()};
+    if (watch.track) least_.lower = std::min(least_.lower, step->least);
+    if (crossing.end == travel.size()) break;
+    step = Onward(travel, bound, crossing.end, watch);
   }
   return crossing;
+}
+
+// From where the pair stands, at the start of motion `at`.
+PairSweep::Step PairSweep::Onward(const motion::Travel& travel, const motion::PairTravel& bound,
+                                  std::size_t at, const Watch& watch) {
+  if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
+  for (; !ahead_seen_.empty() && ahead_seen_.back().end <= at; ahead_seen_.pop_back()) {
+    const auto [end, clearance] = ahead_seen_.back();
+    if (end == at) known_.clearance = std::max(known_.clearance, clearance);
+  }
+  Step step;
+  step.end = bound.Furthest(at, known_.clearance - Spared(watch));
+  step.least = step.clearance = known_.clearance - bound.Between(at, step.end);
+  if (step.end < travel.size() && around_.Ready()) {
+    const Step around = Around(bound, at, step.end, watch);
+    if (around.end > step.end) step = around;
+  }
+  return step.end > at ? step : Ahead(travel, bound, at, watch);
 }
 
 SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
@@ -389,7 +429,7 @@ std::optional<Interval> PairSweep::Query(const Span& span, double bound, Sweep* 
   const Eigen::Isometry3d X_BA = Pose(*sweep->motion, middle);
   const double need = Need(*sweep);
   DistanceGoal goal;
-  goal.relative_gap = 0.2;
+  goal.relative_gap = kGapOfSpare;
   goal.floor = std::max(need, engine_->floor());
   goal.stop_below = sweep->watch.contact;
   // Whatever the answer is, it is worth no more than what the pair may move by.

@@ -152,7 +152,12 @@ class PairSweep {
   };
   void Expect(double spare);
   double Spared(const Watch& watch) const;
-  bool Stand(const motion::Motion& motion, const Watch& watch);
+  bool Stand(const motion::Motion& motion, const Watch& watch, double enough);
+
+  std::optional<Step> Settle(const motion::PairTravel& bound, const motion::Motion& motion,
+                             std::size_t at, const Watch& watch);
+  Step Onward(const motion::Travel& travel, const motion::PairTravel& bound, std::size_t at,
+              const Watch& watch);
   std::optional<double> Recall(const motion::PairTravel::Neighbourhood& around) const;
   std::optional<double> Explore(const motion::PairTravel& bound,
                                 const motion::PairTravel::Neighbourhood& around, double enough);
