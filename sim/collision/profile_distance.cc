@@ -81,6 +81,27 @@ void ProfileDistance::Push(double lower, Kind kind, int index) {
   std::push_heap(heap_.begin(), heap_.end(), Later);
 }
 
+// Most are far enough: which, no branch asks.
+template <class Index>
+void ProfileDistance::PushAll(const std::array<float, kWide>& lower, double at_least, Kind kind,
+                              int count, const Index& index) {
+  std::array<Cell, kWide> near;
+  std::size_t size = 0;
+  double passed = passed_;
+  for (int i = 0; i < count; ++i) {
+    const double bound = std::max(at_least, static_cast<double>(lower[static_cast<std::size_t>(i)]));
+    const bool far = bound >= enough_;
+    near[size] = {bound, kind, index(i)};
+    size += far ? 0 : 1;
+    passed = std::min(passed, far ? bound : kInfinity);
+  }
+  passed_ = passed;
+  for (std::size_t i = 0; i < size; ++i) {
+    heap_.push_back(near[i]);
+    std::push_heap(heap_.begin(), heap_.end(), Later);
+  }
+}
+
 void ProfileDistance::Expand(const Cell& cell) {
   switch (cell.kind) {
     case Kind::kNode:
@@ -99,19 +120,15 @@ void ProfileDistance::ExpandNode(const TriangleTree::Node& node, double at_least
   ++evaluations_;
   std::array<float, kWide> lower;
   BoundBoxes(node.boxes, *solid_, static_cast<float>(enough_), lower.data());
-  for (std::size_t i = 0; i < static_cast<std::size_t>(node.count); ++i) {
-    Push(std::max(at_least, static_cast<double>(lower[i])), Kind::kNode, node.child[i]);
-  }
+  PushAll(lower, at_least, Kind::kNode, node.count, [&node](int i) { return node.child[i]; });
 }
 
 void ProfileDistance::ExpandLeaf(int leaf, double at_least) {
   ++evaluations_;
   std::array<float, kWide> lower;
   BoundTriangles(tree_->leaf(leaf), *solid_, static_cast<float>(enough_), lower.data());
-  for (int i = 0; i < tree_->leaf_size(leaf); ++i) {
-    Push(std::max(at_least, static_cast<double>(lower[static_cast<std::size_t>(i)])),
-         Kind::kTriangle, kWide * leaf + i);
-  }
+  PushAll(lower, at_least, Kind::kTriangle, tree_->leaf_size(leaf),
+          [leaf](int i) { return kWide * leaf + i; });
 }
 
 // The distance to a convex solid is a convex function, so a plane that supports the solid bounds it

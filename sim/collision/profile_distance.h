@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -92,6 +93,9 @@ class ProfileDistance {
   void See(const Eigen::Vector3d& p, double distance);
   void SetUpper(double upper);
   void Push(double lower, Kind kind, int index);
+  template <class Index>
+  void PushAll(const std::array<float, kWide>& lower, double at_least, Kind kind, int count,
+               const Index& index);
   void Expand(const Cell& cell);
   void ExpandNode(const TriangleTree::Node& node, double at_least);
   void ExpandLeaf(int leaf, double at_least);
