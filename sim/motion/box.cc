@@ -41,6 +41,8 @@ struct BoxOver {
     JointVector begin(path.q0.size());
     JointVector end(path.q0.size());
     for (int i = 0; i < static_cast<int>(begin.size()); ++i) {
+      begin[i] = end[i] = path.q0[i];
+      if (path.q0[i] == path.q1[i]) continue;
       const Interval progress = clock.ProgressOver(i, span);
       begin[i] = std::lerp(path.q0[i], path.q1[i], progress.lower);
       end[i] = std::lerp(path.q0[i], path.q1[i], progress.upper);

@@ -71,9 +71,11 @@ Interval DogLegClock::ProgressAt(int axis, double s, const Span& span) const {
   const double up = shift_ > 0.0 ? clock / shift_ : span.lag0;
   const double behind = path_.ramp[axis] - shift_;
   const double down = behind != 0.0 ? (duration - clock) / behind : span.lag0;
-  Interval progress{1.0, 0.0};
-  for (const double lag : {span.lag0, span.lag1, std::clamp(up, span.lag0, span.lag1),
-                           std::clamp(down, span.lag0, span.lag1)}) {
+  const double first = Progress(axis, s, span.lag0);
+  const double last = Progress(axis, s, span.lag1);
+  Interval progress{std::min(first, last), std::max(first, last)};
+  for (const double lag : {up, down}) {
+    if (!(lag > span.lag0 && lag < span.lag1)) continue;
     const double p = Progress(axis, s, lag);
     progress.lower = std::min(progress.lower, p);
     progress.upper = std::max(progress.upper, p);

@@ -19,7 +19,8 @@ struct PositionAt {
     const DogLegClock clock(path);
     JointVector q(path.q0.size());
     for (int i = 0; i < static_cast<int>(q.size()); ++i) {
-      q[i] = std::lerp(path.q0[i], path.q1[i], clock.Progress(i, s, lag));
+      const bool rests = path.q0[i] == path.q1[i];
+      q[i] = rests ? path.q0[i] : std::lerp(path.q0[i], path.q1[i], clock.Progress(i, s, lag));
     }
     return q;
   }

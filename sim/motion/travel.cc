@@ -180,35 +180,39 @@ void Travel::AddLevels() {
 }
 
 PairTravel::PairTravel(const PairPath& pair, const Travel& travel)
-    : pair_(&pair), travel_(&travel), weights_(travel.width(), 0.0) {
+    : pair_(&pair), travel_(&travel) {
   const std::size_t joints = travel.width() - 3;
   if (!pair.tool_to_table) {
     const Travel::Box& all = travel.box(travel.levels() - 1, 0);
     const kinematics::TravelWeights weights =
         pair.path.Weights(0.5 * (all.lower + all.upper), 0.5 * (all.upper - all.lower), pair.a);
     for (std::size_t k = 0; k < joints; ++k) {
-      weights_[k] = weights.joints[static_cast<Eigen::Index>(k)];
+      Weigh(k, weights.joints[static_cast<Eigen::Index>(k)]);
     }
-    weights_[joints] = weights.linear;
+    Weigh(joints, weights.linear);
     return;
   }
   // A point of the body goes with the tip and turns about it: a solid of revolution by as much as
   // its axis turns, any other by as much as the rotary joints do.
-  weights_[joints + 1] = 1.0;
+  Weigh(joints + 1, 1.0);
   const Eigen::Vector3d p_ST(0.0, 0.0, travel.tool_length());
   reach_ = (pair.p_SC - p_ST).norm() + pair.a.radius;
   if (pair.revolved) {
-    weights_[joints + 2] = reach_;
+    Weigh(joints + 2, reach_);
     return;
   }
-  for (const int joint : pair.rotary) weights_[static_cast<std::size_t>(joint)] = reach_;
+  for (const int joint : pair.rotary) Weigh(static_cast<std::size_t>(joint), reach_);
+}
+
+void PairTravel::Weigh(std::size_t measure, double weight) {
+  if (weight != 0.0) weights_.push_back({measure, weight});
 }
 
 double PairTravel::Between(std::size_t i, std::size_t j) const {
   const double* from = travel_->row(i);
   const double* to = travel_->row(j);
   double sum = kSumError;
-  for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * (to[k] - from[k]);
+  for (const auto& [k, weight] : weights_) sum += weight * (to[k] - from[k]);
   return sum;
 }
 
@@ -263,6 +267,7 @@ Eigen::Isometry3d PairTravel::PoseOf(const Neighbourhood& around) const {
 // The totals only grow: strides that double, then halves.
 std::size_t PairTravel::Furthest(std::size_t i, double limit) const {
   const std::size_t size = travel_->size();
+  if (Between(i, size) < limit) return size;
   std::size_t low = i;
   std::size_t stride = 1;
   while (low + stride <= size && Between(i, low + stride) < limit) {

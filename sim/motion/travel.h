@@ -94,11 +94,16 @@ class PairTravel {
   std::size_t levels() const { return travel_->levels(); }
 
  private:
+  void Weigh(std::size_t measure, double weight);
   bool by_tip() const { return pair_->tool_to_table && pair_->revolved; }
 
   const PairPath* pair_;
   const Travel* travel_;
-  std::vector<double> weights_;
+  struct Weight {
+    std::size_t measure;
+    double weight;
+  };
+  std::vector<Weight> weights_;  // of those measures that move the pair
   double reach_ = 0.0;  // tip to the farthest point of A, mm
 };
 
