@@ -96,10 +96,10 @@ CheckerRun RunChecker(const BenchJob& job, std::size_t motions, Approach approac
       checker.Check(part);
     }
     part = Slice(window, begin, std::min(window.motions.size(), begin + motions - run.motions));
-    const double from = ProcessCpuSeconds();
-    checker.Check(part);
-    run.seconds += ProcessCpuSeconds() - from;
     run.motions += part.motions.size();
+    const double from = ProcessCpuSeconds();
+    checker.Check(std::move(part));
+    run.seconds += ProcessCpuSeconds() - from;
     return run.motions < motions;
   });
   start = ProcessCpuSeconds();
