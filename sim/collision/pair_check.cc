@@ -145,7 +145,7 @@ bool PairCheck::ClearWhenSwept(const Watch& watch) {
   whole.contact = std::max(0.0, sweep_.Need(watch));
   whole.find_first = false;
   whole.max_poses = kSweptPoses;
-  const SweepResult result = swept_->Check(motion(), whole);
+  const SweepResult result = swept_->Check(motion(), whole, {&*swept_bound_, at_});
   if (result.contact || result.uncertified) {
     check_swept_.Failed();
     return false;
@@ -213,7 +213,8 @@ bool PairCheck::feeds_unknown() const {
 // What is known of the feeds' depth is what the sweeps came upon: enough for most rapids, but no
 // ground to fail one.
 SweepResult PairCheck::Sweep(Judgement* judgement) {
-  const SweepResult result = sweep_.Check(motion(), judgement->watch);
+  const TravelPlace place{&bound_, at_};
+  const SweepResult result = sweep_.Check(motion(), judgement->watch, place);
   const bool retreats = cutting() && IsRapid(motion()) && carry_->reference.inside();
   if (!result.contact || !retreats) return result;
   const double depth = DepthOfFeeds();
@@ -223,7 +224,7 @@ SweepResult PairCheck::Sweep(Judgement* judgement) {
   if (judgement->watch.contact >= asked.contact) return result;
   judgement->watch.run_least = asked.run_least;
   judgement->watch.find_first = asked.find_first;
-  return sweep_.Check(motion(), judgement->watch);
+  return sweep_.Check(motion(), judgement->watch, place);
 }
 
 // The depth that a rapid may keep: it is where the feed before it left the tool.

@@ -18,6 +18,7 @@ constexpr double kGapOfSpare = 0.4;       // of what is beyond the need: less ta
 constexpr double kCutOut = 0.9;           // of what a clearance covers if the travel is even
 constexpr std::size_t kMemory = 20000;    // poses of a pair
 constexpr double kFarthest = 1e5;         // mm, worth looking ahead
+constexpr double kBestOfBounds = 0.4;     // of what the totals say of a motion
 constexpr double kOfAhead = 0.9;          // neighbourhoods up to this part of it are looked at
 constexpr double kStart = 0.02;           // mm, of clearance at a start that is near anyway
 constexpr double kFirstContact = 1e-3;    // of the motion
@@ -119,17 +120,16 @@ double PairSweep::Need(const Sweep& sweep) const {
   return need;
 }
 
-// The clearance at a pose of a motion, as far as `enough` beyond what is needed; the first one of
+// The clearance at X_BA, a pose of the motion, as far as `enough` beyond what is needed; the first one of
 // all to its end, since what it shows is held against what is needed from then on.
-std::optional<Interval> PairSweep::Look(const Motion& motion, double s, const Watch& watch,
-                                        double enough) {
+std::optional<Interval> PairSweep::Look(const Motion& motion, const Eigen::Isometry3d& X_BA,
+                                        const Watch& watch, double enough) {
   DistanceGoal goal;
   goal.relative_gap = kGapOfSpare;
   goal.floor = Spared(watch);
   if (!watch.track || has_least()) goal.stop_above = goal.floor + enough;
   ++queries_;
-  const std::optional<Interval> clearance =
-      engine_->Clearance(path_->path.Pose(motion.At(s)), goal);
+  const std::optional<Interval> clearance = engine_->Clearance(X_BA, goal);
   if (!clearance.has_value()) return clearance;
   See(clearance->upper, motion, watch.track);
   Expect(clearance->lower - Spared(watch));
@@ -147,9 +147,10 @@ double PairSweep::Spared(const Watch& watch) const { return std::max(0.0, Need(w
 // Takes its stand at the start of a motion: clear of what is needed, and neither body inside the
 // other?
 bool PairSweep::Stand(const Motion& motion, const Watch& watch, double enough) {
-  const std::optional<Interval> clearance = Look(motion, 0.0, watch, enough);
+  const Eigen::Isometry3d X_BA = path_->path.Pose(motion.q0());
+  const std::optional<Interval> clearance = Look(motion, X_BA, watch, enough);
   if (!clearance.has_value() || clearance->lower <= Spared(watch) ||
-      engine_->Contained(path_->path.Pose(motion.At(0.0)))) {
+      engine_->Contained(X_BA)) {
     return false;
   }
   known_ = {clearance->lower, true, motion.q0()};
@@ -195,7 +196,7 @@ std::optional<double> PairSweep::Explore(const motion::PairTravel& bound,
                                          double enough) {
   DistanceGoal goal;
   goal.relative_gap = 0.1;
-  goal.stop_above = enough + 0.5 * ahead_;
+  goal.stop_above = enough + 0.25 * ahead_;
   if (!around.key.has_value()) goal.stop_below = enough;
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(bound.PoseOf(around), goal);
@@ -262,7 +263,7 @@ PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::Pai
       next = std::min({next, std::max(middle, at + 1), end - 1});
     }
     if (next == at) return {at, 0.0, 0.0};
-    const std::optional<Interval> clearance = Look(travel[next - 1], 1.0, watch, ahead_);
+    const std::optional<Interval> clearance = Look(travel[next - 1], bound.Pose(next), watch, ahead_);
     if (!clearance.has_value()) return {at, 0.0, 0.0};
     ahead_seen_.push_back({next, clearance->lower});
   }
@@ -308,12 +309,13 @@ PairSweep::Step PairSweep::Onward(const motion::Travel& travel, const motion::Pa
   return step.end > at ? step : Ahead(travel, bound, at, watch);
 }
 
-SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
+SweepResult PairSweep::Check(const Motion& motion, const Watch& watch, const TravelPlace& place) {
   if (!SamePose(known_.q, motion.q0())) Forget();
   const Span whole = motion::Whole(motion);
   Sweep sweep;
   sweep.motion = &motion;
   sweep.watch = watch;
+  sweep.place = place;
   sweep.result.least = {kInfinity, kInfinity};
   if (!known_.outside && !Start(&sweep)) {
     Forget();
@@ -321,18 +323,8 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
     return sweep.result;
   }
   if (known_.outside) {
-    const double need = Need(sweep);
-    const auto translation = motion::TranslationOf(motion, *path_);
-    const double bound = translation.has_value()
-                             ? translation->way.norm() + translation->astray
-                             : motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
-    if (known_.clearance - bound > need) return Pass(known_.clearance - bound, &sweep);
-    if (translation.has_value() && path_->revolved) {
-      // How deep a feed goes is looked at.
-      const double enough = motion::IsRapid(motion) ? need : std::max(need, 0.0);
-      const std::optional<double> along = ClearAlongAxis(*translation, enough);
-      if (along.has_value()) return Pass(*along, &sweep);
-    }
+    const std::optional<double> passed = PassAtOnce(&sweep);
+    if (passed.has_value()) return Pass(*passed, &sweep);
   }
   Cover(whole, &sweep);
   const SweepResult& result = sweep.result;
@@ -347,6 +339,35 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch) {
   Arrive(sweep.end, sweep);
   if (watch.track) least_.lower = std::min(least_.lower, result.least.lower);
   return result;
+}
+
+// The clearance all the way, where what is known at the start leaves enough of it, or what the tool
+// sweeps along its axis.
+std::optional<double> PairSweep::PassAtOnce(Sweep* sweep) {
+  const Motion& motion = *sweep->motion;
+  const TravelPlace& place = sweep->place;
+  const double need = Need(*sweep);
+  const double spare = known_.clearance - need;
+  bool hopeless = false;  // no bound is that much less than that of the totals
+  if (place.travel != nullptr) {
+    const double most = place.travel->Between(place.at, place.at + 1);
+    if (spare > most) return known_.clearance - most;
+    hopeless = spare < kBestOfBounds * most;
+    if (hopeless && !path_->revolved) return std::nullopt;
+  }
+  const auto translation = place.travel != nullptr ? place.travel->TranslationOf(place.at)
+                                                   : motion::TranslationOf(motion, *path_);
+  const Span whole = motion::Whole(motion);
+  double bound = kInfinity;
+  if (translation.has_value()) {
+    bound = translation->way.norm() + translation->astray;
+  } else if (!hopeless) {
+    bound = motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
+  }
+  if (spare > bound) return known_.clearance - bound;
+  if (!translation.has_value() || !path_->revolved) return std::nullopt;
+  // How deep a feed goes is looked at.
+  return ClearAlongAxis(*translation, motion::IsRapid(motion) ? need : std::max(need, 0.0));
 }
 
 // A motion that is clear by `clearance` all the way. What was seen at its start stays seen.
@@ -499,13 +520,17 @@ void PairSweep::Split(const Span& span, double clearance, double bound, Sweep* s
 void PairSweep::Cover(const Span& whole, Sweep* sweep) {
   SweepResult& result = sweep->result;
   stack_.assign(1, whole);
+  bool first = sweep->place.travel != nullptr;
   while (!stack_.empty()) {
     const Span span = stack_.back();
     stack_.pop_back();
     // Spans come from left to right: a short one may still be the first of many that are not clear.
     if (result.contact && result.first.s - span.s0 <= kFirstContact) continue;
     const PathPoint middle = Middle(span);
-    const double bound = motion::RelativeBound(*sweep->motion, *path_, span, middle.s, middle.lag);
+    const double bound =
+        std::exchange(first, false)
+            ? sweep->place.travel->AboutMiddle(sweep->place.at)
+            : motion::RelativeBound(*sweep->motion, *path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance = Query(span, bound, sweep);
     if (!clearance.has_value() || !std::isfinite(bound) ||
         ++sweep->poses > sweep->watch.max_poses) {

@@ -56,6 +56,12 @@ struct SweepResult {
   PathPoint least_at;
 };
 
+/// Motion `at` of a run that has totals; null where there are none.
+struct TravelPlace {
+  const motion::PairTravel* travel = nullptr;
+  std::size_t at = 0;
+};
+
 class PairSweep {
  public:
   /// Both outlive this.
@@ -75,8 +81,9 @@ class PairSweep {
                  const Watch& watch);
 
   /// Motions in order; one that does not start where the last one ended is a jump, after which
-  /// nothing is known.
-  SweepResult Check(const motion::Motion& motion, const Watch& watch);
+  /// nothing is known. `place`: the same motion.
+  SweepResult Check(const motion::Motion& motion, const Watch& watch,
+                    const TravelPlace& place = {});
 
   /// Is the pair known to be, or found to be, out of contact where the motion starts?
   bool StartsClear(const motion::Motion& motion);
@@ -127,6 +134,7 @@ class PairSweep {
   };
   struct Sweep {
     const motion::Motion* motion = nullptr;
+    TravelPlace place;
     Watch watch;
     SweepResult result;
     double end = std::numeric_limits<double>::infinity();  // certified at the motion's end
@@ -142,8 +150,9 @@ class PairSweep {
   void Deepen(const motion::Motion& motion, const motion::Span& whole, int queries,
               Deepening* search);
   double Need(const Sweep& sweep) const;
-  std::optional<Interval> Look(const motion::Motion& motion, double s, const Watch& watch,
-                               double enough);
+  std::optional<Interval> Look(const motion::Motion& motion, const Eigen::Isometry3d& X_BA,
+                               const Watch& watch, double enough);
+  std::optional<double> PassAtOnce(Sweep* sweep);
   /// A step of a Crossing: to `end`, clear by `least` all the way and by `clearance` there.
   struct Step {
     std::size_t end = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/motion/translation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <variant>
@@ -60,6 +61,17 @@ std::optional<Translation> AlongLine(const Motion& motion, const TcpCurve& curve
 }
 
 }  // namespace
+
+bool IsStraight(const Motion& motion, const kinematics::RelativePath& path) {
+  if (Turns(motion, path)) return false;
+  if (std::holds_alternative<AxisLinear>(motion.path)) return true;
+  const auto* dog_leg = std::get_if<DogLeg>(&motion.path);
+  if (dog_leg == nullptr) return false;
+  const std::vector<int>& joints = path.joint_indices();
+  return std::count_if(joints.begin(), joints.end(), [dog_leg](int joint) {
+           return dog_leg->q0[joint] != dog_leg->q1[joint];
+         }) <= 1;
+}
 
 std::optional<Translation> TranslationOf(const Motion& motion, const PairPath& pair) {
   if (Turns(motion, pair.path)) return std::nullopt;

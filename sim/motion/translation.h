@@ -17,6 +17,10 @@ struct Translation {
   double astray = 0.0;
 };
 
+/// Does no joint of the path turn, and does A go straight from q0 to q1: all joints in proportion,
+/// or one alone?
+bool IsStraight(const Motion& motion, const kinematics::RelativePath& path);
+
 /// nullopt where a joint between the two bodies turns, and for curves.
 std::optional<Translation> TranslationOf(const Motion& motion, const PairPath& pair);
 

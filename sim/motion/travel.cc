@@ -137,10 +137,14 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
   boxes_.emplace_back((motions_.size() + kLeaf - 1) / kLeaf, EmptyBox(tree.num_moving()));
   if (motions_.empty()) return;
   const Meter meter(tree, five_axis, tool_length);
-  Meter::ToolPose from = meter.ToolAt(motions_.front()->q0());
+  tools_.reserve(motions_.size() + 1);
+  middle_of_.reserve(motions_.size());
+  tools_.push_back(meter.ToolAt(motions_.front()->q0()));
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& motion = *motions_[i];
-    const Meter::ToolPose to = meter.ToolAt(motion.q1());
+    tools_.push_back(meter.ToolAt(motion.q1()));
+    const Meter::ToolPose& from = tools_[i];
+    const Meter::ToolPose& to = tools_[i + 1];
     const Measures measures = meter.Of(motion, from, to);
     corner_rounding_ = std::max(corner_rounding_, motion.facts.corner_rounding);
     orientation_tolerance_ = std::max(orientation_tolerance_, motion.facts.orientation_tolerance);
@@ -150,9 +154,19 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
     Enclose(from.tip, to.tip, all(measures.tip), &box.tip_lower, &box.tip_upper);
     Enclose(from.axis, to.axis, all(measures.axis), &box.axis_lower, &box.axis_upper);
     AddSums(i, measures.joints, measures.linear, measures.tip, measures.axis);
-    from = to;
+    AddMiddle(motion);
   }
   AddLevels();
+}
+
+void Travel::AddMiddle(const Motion& motion) {
+  middle_of_.push_back(-1);
+  if (!std::holds_alternative<DogLeg>(motion.path)) return;
+  middle_of_.back() = static_cast<int>(middles_.size());
+  const Span whole = Whole(motion);
+  const JointVector q = motion.At(0.5, 0.5 * (whole.lag0 + whole.lag1));
+  const JointBox box = motion::Box(motion, whole);
+  middles_.push_back({q, (box.upper - q).cwiseMax(q - box.lower).cwiseMax(0.0)});
 }
 
 void Travel::AddSums(std::size_t i, const JointVector& joints, double linear, double tip,
@@ -256,12 +270,42 @@ PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, i
 }
 
 Eigen::Isometry3d PairTravel::PoseOf(const Neighbourhood& around) const {
-  if (!by_tip()) return pair_->path.Pose(around.q);
-  Eigen::Isometry3d X;
-  X.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -around.axis).toRotationMatrix();
-  X.translation() = around.tip + travel_->tool_length() * around.axis;
+  return by_tip() ? PoseOf(around.tip, around.axis) : pair_->path.Pose(around.q);
+}
+
+// Of a solid of revolution: any turn about its axis will do.
+Eigen::Isometry3d PairTravel::PoseOf(const Eigen::Vector3d& tip,
+                                     const Eigen::Vector3d& axis) const {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear().col(2) = -axis;
+  X.linear().col(0) = axis.unitOrthogonal();
+  X.linear().col(1) = X.linear().col(2).cross(X.linear().col(0));
+  X.translation() = tip + travel_->tool_length() * axis;
   return pair_->X_BTable * X * pair_->X_SA;
+}
+
+Eigen::Isometry3d PairTravel::Pose(std::size_t i) const {
+  if (by_tip()) return PoseOf(travel_->tool(i).tip, travel_->tool(i).axis);
+  return pair_->path.Pose(i > 0 ? (*travel_)[i - 1].q1() : (*travel_)[0].q0());
+}
+
+// The way of a solid of revolution that does not turn is its tip's.
+std::optional<Translation> PairTravel::TranslationOf(std::size_t i) const {
+  const Motion& motion = (*travel_)[i];
+  if (!by_tip() || !IsStraight(motion, pair_->path)) return motion::TranslationOf(motion, *pair_);
+  Translation result;
+  result.X_BA = Pose(i);
+  result.way = pair_->X_BTable.linear() * (travel_->tool(i + 1).tip - travel_->tool(i).tip);
+  result.astray = kSumError;
+  return result;
+}
+
+double PairTravel::AboutMiddle(std::size_t i) const {
+  const Motion& motion = (*travel_)[i];
+  const Travel::Middle* middle = travel_->middle(i);
+  if (middle != nullptr) return pair_->path.Bound(middle->q, pair_->a, middle->deviation);
+  const Span whole = Whole(motion);
+  return RelativeBound(motion, *pair_, whole, 0.5, 0.5 * (whole.lag0 + whole.lag1));
 }
 
 // The totals only grow: strides that double, then halves.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/motion/motion.h"
+#include "sim/motion/translation.h"
 
 namespace ncsim::motion {
 
@@ -41,6 +42,17 @@ class Travel {
   /// has one, of all motions.
   std::size_t levels() const { return boxes_.size(); }
   const Box& box(std::size_t level, std::size_t i) const { return boxes_[level][i]; }
+  /// Tip and axis of the tool in the table's frame where motion i starts; or, of size(), where the
+  /// last one ends.
+  const kinematics::FiveAxis::ToolPose& tool(std::size_t i) const { return tools_[i]; }
+  /// Of a dog-leg: the joints in its middle, and how far from there each of them gets.
+  struct Middle {
+    JointVector q, deviation;
+  };
+  /// Null for other motions.
+  const Middle* middle(std::size_t i) const {
+    return middle_of_[i] < 0 ? nullptr : &middles_[static_cast<std::size_t>(middle_of_[i])];
+  }
   /// Greatest Facts::corner_rounding and Facts::orientation_tolerance.
   double corner_rounding() const { return corner_rounding_; }
   double orientation_tolerance() const { return orientation_tolerance_; }
@@ -50,12 +62,16 @@ class Travel {
   const double* row(std::size_t i) const { return sums_.data() + i * width_; }
 
  private:
+  void AddMiddle(const Motion& motion);
   void AddSums(std::size_t i, const JointVector& joints, double linear, double tip, double axis);
   void AddLevels();
 
   std::vector<const Motion*> motions_;
   double tool_length_ = 0.0;
   std::vector<std::vector<Box>> boxes_;
+  std::vector<kinematics::FiveAxis::ToolPose> tools_;
+  std::vector<Middle> middles_;
+  std::vector<int> middle_of_;
   double corner_rounding_ = 0.0;
   double orientation_tolerance_ = 0.0;
   std::size_t width_ = 0;
@@ -73,6 +89,13 @@ class PairTravel {
   double Between(std::size_t i, std::size_t j) const;
   /// The last j in [i, size()] with Between(i, j) < `limit`, and i where there is none.
   std::size_t Furthest(std::size_t i, double limit) const;
+
+  /// X_BA where motion i starts; or, of size(), where the last one ends.
+  Eigen::Isometry3d Pose(std::size_t i) const;
+  /// As motion::TranslationOf.
+  std::optional<Translation> TranslationOf(std::size_t i) const;
+  /// RelativeBound over the whole of motion i, from its middle.
+  double AboutMiddle(std::size_t i) const;
 
   /// A pose on a grid that is the same for all runs; `key` numbers its places.
   using GridKey = std::array<int, 7>;
@@ -94,6 +117,7 @@ class PairTravel {
   std::size_t levels() const { return travel_->levels(); }
 
  private:
+  Eigen::Isometry3d PoseOf(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis) const;
   void Weigh(std::size_t measure, double weight);
   bool by_tip() const { return pair_->tool_to_table && pair_->revolved; }
 
