@@ -15,7 +15,6 @@ namespace {
 using Eigen::Isometry3d;
 
 constexpr std::size_t kMostSwept = 64;
-constexpr double kMeshGap = 0.5;  // of what is beyond the need: less takes thrice the time
 constexpr double kAlongBudget = 0.2;  // mm beyond what is needed of a whole way
 
 class ToolEngine final : public PairEngine {
@@ -123,9 +122,7 @@ class MeshEngine final : public PairEngine {
 
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     if (!a_->fcl.ok() || !b_->fcl.ok() || !X_BA.matrix().allFinite()) return std::nullopt;
-    DistanceGoal loose = goal;
-    if (goal.relative_gap > 0.0) loose.relative_gap = std::max(goal.relative_gap, kMeshGap);
-    Interval result = kernel_.Surface(X_BA, loose);
+    Interval result = kernel_.Surface(X_BA, goal);
     if (result.lower > 0.0) return result;
     // The surfaces meet, or nearly so: FCL says which.
     const std::optional<double> distance = Distance(a_->fcl, b_->fcl, X_BA, result.upper);

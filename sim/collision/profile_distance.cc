@@ -89,7 +89,8 @@ void ProfileDistance::PushAll(const std::array<float, kWide>& lower, double at_l
   std::size_t size = 0;
   double passed = passed_;
   for (int i = 0; i < count; ++i) {
-    const double bound = std::max(at_least, static_cast<double>(lower[static_cast<std::size_t>(i)]));
+    const double bound =
+        std::max(at_least, static_cast<double>(lower[static_cast<std::size_t>(i)]));
     const bool far = bound >= enough_;
     near[size] = {bound, kind, index(i)};
     size += far ? 0 : 1;

@@ -67,10 +67,16 @@ bool IsStraight(const Motion& motion, const kinematics::RelativePath& path) {
   if (std::holds_alternative<AxisLinear>(motion.path)) return true;
   const auto* dog_leg = std::get_if<DogLeg>(&motion.path);
   if (dog_leg == nullptr) return false;
-  const std::vector<int>& joints = path.joint_indices();
-  return std::count_if(joints.begin(), joints.end(), [dog_leg](int joint) {
-           return dog_leg->q0[joint] != dog_leg->q1[joint];
-         }) <= 1;
+  // Each joint has gone some part of its way: with all at that of the longest one A would be on the
+  // straight way, and the others lead off that by no more than they go.
+  double longest = 0.0;
+  double sum = 0.0;
+  for (const int joint : path.joint_indices()) {
+    const double way = std::abs(dog_leg->q1[joint] - dog_leg->q0[joint]);
+    longest = std::max(longest, way);
+    sum += way;
+  }
+  return sum - longest <= kStraight;
 }
 
 std::optional<Translation> TranslationOf(const Motion& motion, const PairPath& pair) {

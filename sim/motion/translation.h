@@ -17,8 +17,9 @@ struct Translation {
   double astray = 0.0;
 };
 
-/// Does no joint of the path turn, and does A go straight from q0 to q1: all joints in proportion,
-/// or one alone?
+/// Does no joint of the path turn, and is A at every pose within kStraight of the straight way from
+/// q0 to q1: all joints in proportion, or one almost alone?
+inline constexpr double kStraight = 1e-3;  // mm: what is left by a post that writes four digits
 bool IsStraight(const Motion& motion, const kinematics::RelativePath& path);
 
 /// nullopt where a joint between the two bodies turns, and for curves.

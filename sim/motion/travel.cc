@@ -296,7 +296,7 @@ std::optional<Translation> PairTravel::TranslationOf(std::size_t i) const {
   Translation result;
   result.X_BA = Pose(i);
   result.way = pair_->X_BTable.linear() * (travel_->tool(i + 1).tip - travel_->tool(i).tip);
-  result.astray = kSumError;
+  result.astray = kStraight + kSumError;
   return result;
 }
 

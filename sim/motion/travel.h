@@ -128,7 +128,7 @@ class PairTravel {
     double weight;
   };
   std::vector<Weight> weights_;  // of those measures that move the pair
-  double reach_ = 0.0;  // tip to the farthest point of A, mm
+  double reach_ = 0.0;           // tip to the farthest point of A, mm
 };
 
 }  // namespace ncsim::motion
