@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/collision/bodies.h"
 
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "sim/collision/content.h"
 #include "sim/collision/tessellate.h"
@@ -59,15 +65,39 @@ const char* Word(machine::BodyKind kind) {
 
 }  // namespace
 
-MeshBody::MeshBody(const machine::SceneBody& body)
+struct MeshBody::Trees {
+  explicit Trees(const machine::TriangleMesh& mesh) {
+    oneapi::tbb::parallel_invoke([&] { tree.emplace(mesh); }, [&] { boxes.emplace(mesh); },
+                                 [&] { fcl.emplace(mesh); });
+  }
+  std::optional<TriangleTree> tree;
+  std::optional<BoxTree> boxes;
+  std::optional<FclMesh> fcl;
+};
+
+MeshBody::MeshBody(const machine::SceneBody& body) : MeshBody(body, Trees(Usable(body))) {}
+
+MeshBody::MeshBody(const machine::SceneBody& body, Trees trees)
     : name(body.name),
       kind(body.kind),
       defect(Defect(body)),
       extent(ExtentOf(body)),
-      tree(Usable(body)),
-      boxes(Usable(body)),
-      fcl(Usable(body)),
+      tree(*std::move(trees.tree)),
+      boxes(*std::move(trees.boxes)),
+      fcl(*std::move(trees.fcl)),
       content(ContentOf(body)) {}
+
+std::vector<std::shared_ptr<const MeshBody>> MeshBodiesOf(const machine::Scene& scene) {
+  std::vector<std::shared_ptr<const MeshBody>> bodies(scene.bodies.size());
+  // Isolated: a thread that waits for a tree takes no other program's work meanwhile.
+  oneapi::tbb::this_task_arena::isolate([&] {
+    oneapi::tbb::parallel_for(
+        std::size_t{0}, bodies.size(),
+        [&](std::size_t i) { bodies[i] = std::make_shared<const MeshBody>(scene.bodies[i]); },
+        oneapi::tbb::simple_partitioner());
+  });
+  return bodies;
+}
 
 const machine::Profile& ProfileOf(const machine::Tool& tool, machine::BodyKind kind) {
   if (kind == machine::BodyKind::kShank) return tool.shank;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "kinematics/relative_bound.h"
 #include "sim/base/digest.h"
@@ -29,7 +30,14 @@ struct MeshBody {
   BoxTree boxes;
   FclMesh fcl;
   Digest content;  ///< Of all that it was made of.
+
+ private:
+  struct Trees;
+  MeshBody(const machine::SceneBody& body, Trees trees);
 };
+
+/// The trees are built on as many threads as there are.
+std::vector<std::shared_ptr<const MeshBody>> MeshBodiesOf(const machine::Scene& scene);
 
 /// Flutes, shank or holder: a solid of revolution in frame S of the spindle link.
 struct ToolBody {

@@ -197,9 +197,7 @@ CollisionChecker::CollisionChecker(const machine::Machine& machine, const machin
                                    const machine::CheckSettings& settings,
                                    const OutcomeCache* cache)
     : state_(std::make_unique<State>(machine, tools, settings, cache)) {
-  for (const machine::SceneBody& body : scene.bodies) {
-    state_->bodies.push_back(std::make_shared<const MeshBody>(body));
-  }
+  state_->bodies = MeshBodiesOf(scene);
   state_->scene = state_->Watch(ScenePairs(machine, state_->bodies));
 }
 
