@@ -31,7 +31,12 @@ void WriteProblem(const JunitProblem& problem, std::ostream& out) {
 void WriteCase(const JunitCase& test, std::ostream& out) {
   out << "  <testcase classname=\"" << Markup(test.classname) << "\" name=\"" << Markup(test.name)
       << "\">\n";
-  for (const JunitProblem& problem : test.problems) WriteProblem(problem, out);
+  // Jenkins' schema has errors before failures.
+  for (const bool failure : {false, true}) {
+    for (const JunitProblem& problem : test.problems) {
+      if (problem.failure == failure) WriteProblem(problem, out);
+    }
+  }
   if (!test.output.empty()) {
     out << "   <system-out>";
     for (std::size_t i = 0; i < test.output.size(); ++i) {
