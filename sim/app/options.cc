@@ -193,6 +193,8 @@ class CommandLine {
         ->type_name("T");
     post_->add_flag("--split", o.file_for_operation,
                     "a file for each operation beside OUT, and a program that calls them");
+    post_->add_flag("--map", o.map,
+                    "leave OUT.lines beside OUT, from which check knows the CL file's lines");
     post_->add_flag("--no-check", no_check_, "write without checking");
     post_->add_option("--assume", assume_, "as for check")
         ->type_name("all|NAME,...")
@@ -373,6 +375,7 @@ class CommandLine {
       return "post needs a CL file: ncsim post part.cls --model umc750.urdf -o part.nc";
     }
     if (o.file_for_operation && o.out.empty()) return "--split needs --out: the files go beside it";
+    if (o.map && o.out.empty()) return "--map needs --out: the map goes beside it";
     return "";
   }
 

@@ -65,6 +65,7 @@ struct PostCommandOptions {
   std::optional<int> first_tool;     ///< In the spindle where the file loads none.
   ClInput cl;
   bool file_for_operation = false;
+  bool map = false;  ///< A map of its lines beside each program.
   bool check = true;
   std::vector<std::string> assume;  ///< As CheckOptions.
   bool strict = false;

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
+#include "sim/app/app.h"
+#include "sim/nightly/test_folder.h"
 #include "tests/corpus/umc750_job.h"
 #include "tests/report/browser.h"
 #include "tests/report/shown_run.h"
@@ -232,6 +235,29 @@ TEST_F(ReportPage, PickingAFindingALineAndAKey) {
   browser_->Press(" ");
   EXPECT_GT(browser_->Evaluate("ncsim.time"), begin);
   EXPECT_EQ(browser_->Evaluate("ncsim.playing"), false);
+  ExpectNoComplaint();
+}
+
+// What `ncsim post --map` has left beside the program.
+TEST_F(ReportPage, AFindingShowsTheRecordItWasPostedFrom) {
+  const nightly::TestFolder folder("posted_page");
+  const std::string job = ScenePath("posted/hub.nc.job.toml").string();
+  std::ostringstream out, err;
+  ASSERT_EQ(app::Run({"post", ScenePath("posted/hub.cls").string(), "--job", job, "-o",
+                      folder / "hub.nc", "--map", "--no-check"},
+                     out, err),
+            0)
+      << err.str();
+  const ShownRun run(folder / "hub.nc", {"--job", job, "--clearance", "35"});
+  Open(run, 1280);
+  ClickOn("#findings .item");
+  const Json from = browser_->Evaluate("ncsim.current.posted_from");
+  ASSERT_FALSE(from.is_null());
+  std::istringstream cl(ReadBytes(ScenePath("posted/hub.cls")));
+  std::string record;
+  for (int i = 0; i < from.at("line"); ++i) std::getline(cl, record);
+  EXPECT_EQ(browser_->Evaluate("document.querySelectorAll('#headline .where')[1].textContent"),
+            "from hub.cls line " + std::to_string(from.at("line").get<int>()) + " " + record);
   ExpectNoComplaint();
 }
 

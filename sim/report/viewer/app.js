@@ -170,11 +170,20 @@ class App {
     where.append(finding.line > 0 ? `${rank} · line ${finding.line} ` : rank + ' ');
     const text = this.text.texts[finding.fileIndex];
     if (text && finding.line > 0 && text.lines[finding.line - 1]) where.append(element('code', '', text.lines[finding.line - 1].trim().slice(0, 80)));
+    if (finding.posted_from) box.append(this.origin(finding.posted_from));
     if (finding.bodies.length === 2) {
       const lit = element('div', 'lit');
       finding.bodies.forEach((name, i) => lit.append(element('span', 'chip ' + 'ab'[i], name)));
       box.append(lit);
     }
+  }
+
+  /** The record of the cutter-location file. */
+  origin({file, line}) {
+    const box = element('div', 'where', `from ${file.split('/').pop()} line ${line} `);
+    const text = this.text.texts.find((one) => one.name === file), record = text && text.lines[line - 1];
+    if (record) box.append(element('code', '', record.trim().slice(0, 80)));
+    return box;
   }
 
   stepFinding(way) {
