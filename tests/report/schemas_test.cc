@@ -104,6 +104,22 @@ TEST_F(ServiceSchemas, HoldTheReportsOfAllScenes) {
   if (!missing.empty()) GTEST_SKIP() << missing;
 }
 
+// As `ncsim post --map` leaves it.
+TEST_F(ServiceSchemas, HoldRecordsOfACutterLocationFile) {
+  const std::string job = ScenePath("posted/hub.nc.job.toml").string();
+  std::ostringstream out, err;
+  ASSERT_EQ(app::Run({"post", ScenePath("posted/hub.cls").string(), "--job", job, "-o",
+                      folder_ / "hub.nc", "--map", "--no-check"},
+                     out, err),
+            app::kExitPass)
+      << err.str();
+  const std::string sarif = Check({folder_ / "hub.nc", "--job", job, "--clearance", "35"}, "sarif");
+  EXPECT_GT(Occurrences(sarif, "relatedLocations"), 0U);
+  const std::string missing = WhyNoPackages();
+  if (!missing.empty()) GTEST_SKIP() << missing;
+  ExpectSarif(sarif);
+}
+
 TEST_F(ServiceSchemas, HoldANightsJunit) {
   const std::string parts = folder_ / "parts";
   fs::copy(ScenePath("crash_gallery"), parts);
