@@ -238,6 +238,28 @@ TEST_F(ReportPage, PickingAFindingALineAndAKey) {
   ExpectNoComplaint();
 }
 
+// A line that cannot be read, a body that cannot be checked, an offset that nobody states.
+TEST_F(ReportPage, WhatIsNoMotionIsShownToo) {
+  const ShownRun syntax(ScenePath("crash_gallery/syntax.nc"));
+  Open(syntax, 1280);
+  ExpectAxes(syntax.trace().back().axes, 1e-3, "where the last motion has ended");
+  EXPECT_EQ(browser_->Evaluate("ncsim.faulty().some((one) => one)"), false);
+  const ShownRun uncertified(ScenePath("crash_gallery/uncertified.nc"));
+  Open(uncertified, 1280);
+  EXPECT_EQ(browser_->Evaluate("ncsim.view.lit.join()"), "stop");
+  Draw();
+  const double off = browser_->Evaluate(
+      "ncsim.view.box((b) => b.name === 'stop').getCenter(new THREE.Vector3())"
+      ".project(ncsim.view.camera).setZ(0).length()");
+  EXPECT_LT(off, 0.1) << "it is not in the middle of the view";
+  const ShownRun assumed(ScenePath("crash_gallery/assumed.nc"));
+  Open(assumed, 1280);
+  const double distance = browser_->Evaluate("ncsim.view.turn.distance");
+  EXPECT_NEAR(browser_->Evaluate("ncsim.view.fit(), ncsim.view.turn.distance"), distance, 1e-6)
+      << "it has no place: all of the machine is shown";
+  ExpectNoComplaint();
+}
+
 // What `ncsim post --map` has left beside the program.
 TEST_F(ReportPage, AFindingShowsTheRecordItWasPostedFrom) {
   const nightly::TestFolder folder("posted_page");
