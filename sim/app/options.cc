@@ -260,6 +260,9 @@ class CommandLine {
     nightly_
         ->add_option("--jobs", o.jobs, "programs to check at a time (default: one after another)")
         ->type_name("N");
+    nightly_->add_flag(
+        "--reports", o.reports,
+        "a page of each program, as check --report writes it, linked from the table");
     nightly_->add_flag("--all", o.all, "check also what has not changed");
     nightly_
         ->add_option("--shard", shard_, "check part I, from 0, of N parts, and leave it in --out")
@@ -434,6 +437,7 @@ class CommandLine {
     if (o.merge && (o.shard_count > 0 || o.all)) {
       return "--merge makes a night of what was checked: without --shard and --all";
     }
+    if (o.merge && o.reports) return "--reports goes with --shard: a merge checks nothing";
     if (o.shard_count > 0 && !o.baseline.empty()) return "--baseline goes with --merge";
     return "";
   }

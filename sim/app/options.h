@@ -84,6 +84,7 @@ struct NightlyOptions {
   bool all = false;                ///< Also what has not changed.
   int shard = 0, shard_count = 0;  ///< Count 0: not a shard.
   bool merge = false;
+  bool reports = false;    ///< A page of each program.
   std::string executable;  ///< That checks; "" for this program.
 };
 
