@@ -238,6 +238,21 @@ TEST_F(ReportPage, PickingAFindingALineAndAKey) {
   ExpectNoComplaint();
 }
 
+// What is hidden behind another tab does not scroll by itself.
+TEST_F(ReportPage, ATabComesUpWithWhatIsAtWork) {
+  const ShownRun run(ScenePath("five_axis/dome.nc"));
+  Open(run, 400);
+  ClickOn("#tabs [data-tab=text]");
+  Draw();
+  EXPECT_GT(browser_->Evaluate("ncsim.text.now.line"), 100);
+  EXPECT_EQ(browser_->Evaluate(
+                "(() => { const row = document.querySelector('#nc .now').getBoundingClientRect(),"
+                " box = document.getElementById('nc').getBoundingClientRect();"
+                " return row.top >= box.top && row.bottom <= box.bottom; })()"),
+            true);
+  ExpectNoComplaint();
+}
+
 // A line that cannot be read, a body that cannot be checked, an offset that nobody states.
 TEST_F(ReportPage, WhatIsNoMotionIsShownToo) {
   const ShownRun syntax(ScenePath("crash_gallery/syntax.nc"));

@@ -301,7 +301,8 @@ class App {
     for (const button of document.querySelectorAll('#tabs button')) button.setAttribute('aria-selected', button.dataset.tab === name);
     this.charts.draw();
     this.text.drawn = null;
-    this.text.draw();
+    this.text.reveal();
+    this.list.mark(this.current);
   }
 
   buttons() {

@@ -152,8 +152,14 @@ class ProgramText {
     if (this.now.file === file && this.now.line === line) return;
     this.now = {file, line};
     if (file !== this.file && file < this.texts.length) this.open(file);
-    const top = (line - 1) * ROW, {scrollTop, clientHeight} = this.box;
-    if (top < scrollTop + ROW || top > scrollTop + clientHeight - 3 * ROW) this.box.scrollTop = Math.max(0, top - clientHeight / 2);
+    this.reveal();
+  }
+
+  /** What is hidden does not scroll: on a narrow page this is asked for when the text comes up. */
+  reveal() {
+    const top = (this.now.line - 1) * ROW, {scrollTop, clientHeight} = this.box;
+    const out = top < scrollTop + ROW || top > scrollTop + clientHeight - 3 * ROW;
+    if (this.now.file === this.file && out) this.box.scrollTop = Math.max(0, top - clientHeight / 2);
     this.draw();
   }
 }
