@@ -67,7 +67,7 @@ const jobs = Object.values(text.jobs || text);
 if (jobs.length !== 1) refuse('more than one job');
 const done = [];
 for (let run = 1; run <= Number(runs); ++run) {
-  const work = path.join(folder, 'work');  // The same place each time.
+  const work = path.join(folder, 'checkout');  // The same place each time.
   fs.rmSync(work, {recursive: true, force: true});
   fs.mkdirSync(work, {recursive: true});
   let failed = false;

@@ -124,7 +124,7 @@ TEST_F(WorkflowsOfTheDocs, ChecksAreShownAtTheirLines) {
     for (const json& step : runs[0]) log += step.value("out", "");
     EXPECT_THAT(log, HasSubstr("::error file=parts/gouge.nc,line="));
     const Said valid = RunNode("validate_json.cjs",
-                               "sarif-2.1.0.json " + Quoted(folder_ / "runs/work/ncsim.sarif"));
+                               "sarif-2.1.0.json " + Quoted(folder_ / "runs/checkout/ncsim.sarif"));
     EXPECT_EQ(valid.exit_code, 0) << valid.text;
   }
   EXPECT_EQ(github, 1);
