@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "sim/base/digest.h"
 #include "sim/report/json_values.h"
 
 namespace ncsim::nightly {
@@ -158,6 +159,17 @@ bool Result::StillHolds(const std::string& wanted_key, const std::string& root) 
     const std::string now = path ? (std::filesystem::path(root) / input.name).string() : input.name;
     return StateNow(input.kind, now) == input.state;
   });
+}
+
+std::string PageName(const Result& result) {
+  std::string name;
+  for (const char c : result.name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += plain || c == '.' || c == '-' ? c : '_';
+  }
+  constexpr std::size_t kLongest = 100;  // Of a file's name 255 bytes are allowed.
+  const std::string all = result.name + '\n' + result.key + '\n' + WriteInputs(result.inputs);
+  return name.substr(0, kLongest) + "-" + ToString(DigestOf(all)) + ".html";
 }
 
 std::optional<Report> ReadReport(std::string_view json) { return Read(json, ReportOf); }

@@ -250,6 +250,46 @@ TEST_F(NightlyTest, ShardsMergedAreTheSingleRunByteForByte) {
   }
 }
 
+TEST_F(SmallNightTest, EachProgramHasItsPage) {
+  const auto pages = [&] {
+    std::map<std::string, std::string> found;
+    for (const auto& [name, row] : Rows("out")) {
+      if (row.at("page").is_string()) found[name] = row.at("page");
+    }
+    return found;
+  };
+  EXPECT_EQ(Run("out").checked, 3);
+  EXPECT_TRUE(pages().empty());
+  options_.reports = true;
+  EXPECT_EQ(Run("out").checked, 3) << "there is none yet";
+  const auto first = pages();
+  ASSERT_EQ(first.size(), 3U);
+  const std::string index = Read(root_ / "out/index.html");
+  for (const auto& [name, page] : first) {
+    EXPECT_THAT(index, HasSubstr("<a href=\"" + page + "\">" + name + "</a>"));
+    EXPECT_THAT(Read(root_ / "out" / page), HasSubstr("</html>")) << page;
+  }
+  EXPECT_EQ(Run("out").checked, 0);
+  fs::remove(root_ / "out" / first.at("gallery/near-miss.nc"));
+  EXPECT_EQ(Run("out").checked, 1);
+  EXPECT_EQ(pages(), first);
+  // A page is of what was checked: when it is not made anew, there is no link to the old one.
+  Replace("near-miss.nc", "F800.", "F801.");
+  options_.reports = false;
+  EXPECT_EQ(Run("out").checked, 1);
+  EXPECT_EQ(pages().count("gallery/near-miss.nc"), 0U);
+  EXPECT_EQ(pages().size(), 2U);
+  EXPECT_FALSE(fs::exists(root_ / "out" / first.at("gallery/near-miss.nc")));
+  options_.reports = true;
+  EXPECT_EQ(Run("out").checked, 1);
+  EXPECT_NE(pages().at("gallery/near-miss.nc"), first.at("gallery/near-miss.nc"));
+  // Of shards too.
+  Merge("merged", 2);
+  options_.reports = false;
+  Run("merged");
+  EXPECT_EQ(Read(root_ / "merged/index.html"), Read(root_ / "out/index.html"));
+}
+
 TEST_F(SmallNightTest, AShardThatIsMissingIsAnErrorInItsRows) {
   Merge("out", 3);
   fs::remove(root_ / "out/shards/1-of-3.json");
