@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -185,7 +186,10 @@ std::vector<Result> RunChecks(const std::vector<Entry>& entries, const RunOption
 }
 
 bool WriteWhole(const std::string& path, const std::string& text) {
-  const std::string temporary = path + "." + std::to_string(getpid()) + ".new";
+  // Another machine may write the same file.
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string temporary = path + "." + host.data() + "." + std::to_string(getpid()) + ".new";
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file << text;
   file.close();
