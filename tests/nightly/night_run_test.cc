@@ -166,7 +166,7 @@ TEST_F(SmallNightTest, EachProgramHasItsPage) {
   RunShards("merged", 2);
   options_.reports = false;
   Run("merged");
-  EXPECT_EQ(ReadText(root_ / "merged/index.html"), Read(root_ / "out/index.html"));
+  EXPECT_EQ(ReadText(root_ / "merged/index.html"), ReadText(root_ / "out/index.html"));
 }
 
 TEST_F(SmallNightTest, AShardThatIsMissingIsAnErrorInItsRows) {
