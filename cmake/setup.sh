@@ -6,6 +6,8 @@ set -eu
 NCSIM_PACKAGES="g++ cmake ninja-build libeigen3-dev libfcl-dev libassimp-dev liburdfdom-dev
   libtinyxml2-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libtbb-dev libxxhash-dev libsqlite3-dev zlib1g-dev libjs-three
   libgtest-dev libgmock-dev libbenchmark-dev"
+# Programs that tests run beside ncsim.
+NCSIM_TEST_PACKAGES="linuxcnc-uspace chromium libxml2-utils slurm-wlm munge"
 
 install_packages() {
   missing=""

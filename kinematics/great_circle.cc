@@ -18,7 +18,7 @@ constexpr double kLeastAngle = 1e-9;
 /// rad: a circle that comes this near to the pole leads through it.
 constexpr double kMeridian = 1e-12;
 /// rad: beyond its reach by less, the machine stays at the edge (as SolveRotary).
-constexpr double kReach = 1e-9;
+constexpr double kCircleReach = 1e-9;
 /// rad: what a joint's stated end may differ from the closed solution. At the edge of the reach the
 /// tilt is known to the root of the rounding only.
 constexpr double kSameEnd = 1e-7;
@@ -58,8 +58,8 @@ GreatCircle::Fault GreatCircle::Make(const FiveAxis& five_axis, const std::array
   circle->Place(other, u0, u1);
   if (circle->PassesPole()) return Fault::kThroughPole;
   const Range alpha = circle->AlphaOver(circle->psi0_, circle->psi0_ + circle->angle_);
-  if (alpha.lower < circle->triangle_.nearest() - kReach ||
-      alpha.upper > circle->triangle_.farthest() + kReach) {
+  if (alpha.lower < circle->triangle_.nearest() - kCircleReach ||
+      alpha.upper > circle->triangle_.farthest() + kCircleReach) {
     return Fault::kUnreachable;
   }
   return circle->Anchor(from, to);

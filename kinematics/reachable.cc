@@ -9,15 +9,16 @@
 namespace ncsim::kinematics {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kWholeTurn = 2.0 * std::numbers::pi;
+
 constexpr double kLimitTolerance = 1e-9;  // rad
 
 /// `angle` and whole turns, as near to `from` as the limits let it; nullopt where they let none.
 std::optional<double> Nearest(double angle, double from, double lower, double upper) {
-  const double first = std::ceil((lower - kLimitTolerance - angle) / kTurn);
-  const double last = std::floor((upper + kLimitTolerance - angle) / kTurn);
+  const double first = std::ceil((lower - kLimitTolerance - angle) / kWholeTurn);
+  const double last = std::floor((upper + kLimitTolerance - angle) / kWholeTurn);
   if (!(first <= last)) return std::nullopt;
-  return angle + kTurn * std::clamp(std::round((from - angle) / kTurn), first, last);
+  return angle + kWholeTurn * std::clamp(std::round((from - angle) / kWholeTurn), first, last);
 }
 
 }  // namespace

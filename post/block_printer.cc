@@ -9,7 +9,7 @@
 namespace ncsim::post {
 namespace {
 
-constexpr double kTurn = 360.0;
+constexpr double kTurnDegrees = 360.0;
 
 /// Texts outside of comments: names and numbers, nothing that could be read as something else.
 bool IsPlain(std::string_view text) {
@@ -281,8 +281,9 @@ std::string BlockPrinter::TextOf(const WordFormat& word, const Values& values) c
   PrintedNumber printed = post::Print(format, *number);
   if (word.wrap) {
     // Of the rounded value: 359.9999 is 0.
-    printed = post::Print(format, printed.value - kTurn * std::floor(printed.value / kTurn));
-    if (printed.value >= kTurn) printed = post::Print(format, 0.0);
+    printed = post::Print(format,
+                          printed.value - kTurnDegrees * std::floor(printed.value / kTurnDegrees));
+    if (printed.value >= kTurnDegrees) printed = post::Print(format, 0.0);
   }
   return word.address + printed.text + word.suffix;
 }

@@ -5,17 +5,13 @@
 #include <cctype>
 #include <utility>
 
+#include "sim/base/text.h"
+
 namespace ncsim::post {
 namespace {
 
-bool IsLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-bool IsBlank(char c) { return c == ' ' || c == '\t'; }
-std::string Upper(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return upper;
-}
+bool IsNameLetter(char c) { return IsLetter(c) || c == '_'; }
+bool IsGap(char c) { return c == ' ' || c == '\t'; }
 
 /// "G00" is "G0".
 std::string CodeOf(std::string_view word) {
@@ -40,7 +36,7 @@ class WordScanner {
         SkipTo("\"");
       } else if (text_[at_] == '(') {
         SkipTo(")");
-      } else if (IsLetter(text_[at_])) {
+      } else if (IsNameLetter(text_[at_])) {
         ReadWord();
       } else {
         ++at_;
@@ -58,12 +54,12 @@ class WordScanner {
 
   void ReadWord() {
     const std::size_t begin = at_;
-    while (IsLetter(Peek())) ++at_;
+    while (IsNameLetter(Peek())) ++at_;
     const bool one_letter = at_ == begin + 1;
-    while (IsDigit(Peek()) || (!one_letter && IsLetter(Peek()))) ++at_;
+    while (IsDigit(Peek()) || (!one_letter && IsNameLetter(Peek()))) ++at_;
     const std::string name = Upper(text_.substr(begin, at_ - begin));
     std::size_t equals = at_;
-    while (equals < text_.size() && IsBlank(text_[equals])) ++equals;
+    while (equals < text_.size() && IsGap(text_[equals])) ++equals;
     if (equals < text_.size() && text_[equals] == '=') {
       at_ = equals + 1;
       SkipValue();
@@ -82,7 +78,7 @@ class WordScanner {
     while (IsDigit(Peek()) || Peek() == '.') ++at_;
   }
   void SkipValue() {
-    while (at_ < text_.size() && !IsBlank(text_[at_]) && text_[at_] != '\n') ++at_;
+    while (at_ < text_.size() && !IsGap(text_[at_]) && text_[at_] != '\n') ++at_;
   }
 
   std::string_view text_, open_, close_;

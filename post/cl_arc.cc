@@ -10,9 +10,8 @@
 namespace ncsim::post {
 namespace {
 
-constexpr double kTurn = 2.0 * kPi;
-constexpr double kSamePoint = 1e-9;  // mm: the same text
-constexpr double kRounding = 2e-4;   // mm: one place may be printed so, with four decimals
+constexpr double kSamePoint = 1e-9;        // mm: the same text
+constexpr double kPrintedRounding = 2e-4;  // mm: one place may be printed so, with four decimals
 
 }  // namespace
 
@@ -49,11 +48,11 @@ bool ClArcBuilder::Add(const Eigen::Vector3d& point_M, std::string* error) {
   }
   const double apart = (to - from).norm();
   double angle = std::atan2(arc_.normal_M.dot(from.cross(to)), from.dot(to));
-  if (!points_.empty() && apart <= kRounding) {
+  if (!points_.empty() && apart <= kPrintedRounding) {
     // The same point twice in a list: no turn.
   } else if (apart <= kSamePoint) {
     angle = kTurn;
-  } else if (apart <= kRounding) {
+  } else if (apart <= kPrintedRounding) {
     return fail("start and end of the circle lie " + Fixed(apart, 6) +
                 " mm apart: a whole turn or none may be meant");
   } else if (angle <= 0.0) {
@@ -75,7 +74,7 @@ std::optional<ClArc> ClArcBuilder::Finish(std::string* error) const {
   if (times_ && points_.size() > 1) return fail("TIMES with a list of points is not supported");
   if (times_) arc.sweep += kTurn * (*times_ - 1);
   const bool flat = std::abs(arc.rise) <= kClArcTolerance;
-  if (!times_ && flat && arc.sweep > kTurn + kRounding / arc.radius) {
+  if (!times_ && flat && arc.sweep > kTurn + kPrintedRounding / arc.radius) {
     return fail("the points of the circle do not follow each other in its sense");
   }
   for (const Passed& point : points_) {

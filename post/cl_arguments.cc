@@ -5,17 +5,13 @@
 #include <cctype>
 #include <cmath>
 
+#include "sim/base/text.h"
+
 namespace ncsim::post {
-namespace {
-
-char Upper(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
-
-}  // namespace
-
 std::string ClArguments::Peek() const {
   if (done() || at_number()) return {};
   std::string word(line_.tokens[next_].text);
-  std::transform(word.begin(), word.end(), word.begin(), Upper);
+  for (char& c : word) c = Upper(c);
   return word;
 }
 

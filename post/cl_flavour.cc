@@ -5,10 +5,11 @@
 #include <array>
 #include <utility>
 
+#include "post/cl_text.h"
+#include "sim/base/text.h"
+
 namespace ncsim::post {
 namespace {
-
-constexpr std::size_t kReleaseBytes = std::size_t{4} << 20;
 
 struct Sign {
   std::string_view begin;  ///< Of a line, upper case.
@@ -27,8 +28,6 @@ constexpr std::array<Sign, 12> kSigns = {{{"TOOL PATH", ClFlavour::kNx},
                                           {"CYCLE/DEEP2", ClFlavour::kSolidWorksCam},
                                           {"CYCLE/CLEAR", ClFlavour::kSolidWorksCam}}};
 constexpr std::string_view kCreoName = "PRO/CLFILE";
-
-char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 /// `text` from its first character that is no blank, upper case, with one blank for several and
 /// none around separators; no longer than needed to compare.

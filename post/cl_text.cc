@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/text.h"
+
 namespace ncsim::post {
 namespace {
 
@@ -14,8 +16,6 @@ namespace {
 constexpr std::size_t kMaxTokens = 1000;
 /// Beyond it no number of a part or a machine lies, and products of some stay finite.
 constexpr double kMaxNumber = 1e12;
-/// The pages of what is read are given back in pieces of this size.
-constexpr std::size_t kReleaseBytes = std::size_t{4} << 20;
 /// What follows these is taken literally.
 constexpr std::array<std::string_view, 6> kTextWords = {"INSERT", "LETTER", "PARTNO",
                                                         "PPRINT", "REMARK", "TITLES"};
@@ -29,13 +29,7 @@ std::string_view Trim(std::string_view text) {
   return text;
 }
 
-char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
-bool IsWordCharacter(char c) {
-  return IsDigit(c) || (Upper(c) >= 'A' && Upper(c) <= 'Z') || c == '_' || c == '-';
-}
+bool IsWordCharacter(char c) { return IsDigit(c) || IsLetter(c) || c == '_' || c == '-'; }
 
 /// Upper case, with one blank for several.
 void SetMajor(std::string_view text, std::string* major) {

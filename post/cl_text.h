@@ -16,6 +16,9 @@
 
 namespace ncsim::post {
 
+/// The pages of what is read are given back in pieces of this size.
+inline constexpr std::size_t kReleaseBytes = std::size_t{4} << 20;
+
 /// What stands between two separators. Points into the text of the program.
 struct ClToken {
   std::string_view text;  ///< Without blanks around it; may be empty.

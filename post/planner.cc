@@ -13,13 +13,13 @@
 namespace ncsim::post {
 namespace {
 
-constexpr double kSameAxis = 1e-7;  // rad
+constexpr double kSameToolAxis = 1e-7;  // rad
 constexpr double kSameRotary = 1e-9;
-constexpr double kRounding = 1e-3;  // of a time: inverse time is printed with three decimals
-constexpr double kExactly = 1e-6;   // of a time
+constexpr double kTimeRounding = 1e-3;  // of a time: inverse time is printed with three decimals
+constexpr double kExactly = 1e-6;       // of a time
 
 bool SameAxis(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.cross(b).norm() < kSameAxis && a.dot(b) > 0.0;
+  return a.cross(b).norm() < kSameToolAxis && a.dot(b) > 0.0;
 }
 
 bool SameRotary(const Rotary& a, const Rotary& b) {
@@ -31,7 +31,7 @@ bool SameRotary(const Rotary& a, const Rotary& b) {
 Eigen::Matrix3d PlaneOf(const Eigen::Vector3d& normal) {
   const Eigen::Vector3d level(normal.x(), normal.y(), 0.0);
   Eigen::Matrix3d plane = Eigen::Matrix3d::Identity();
-  if (level.norm() < kSameAxis) {
+  if (level.norm() < kSameToolAxis) {
     if (normal.z() < 0.0) plane.diagonal() << 1.0, -1.0, -1.0;
     return plane;
   }
@@ -391,7 +391,7 @@ bool Planner::State::FastEnough(const ClEvent& event, const PlanPose& from, cons
     to.xyz += Eigen::Vector3d::Constant(move.feed.value * time);
   }
   // Of a turn the time is what is printed, and it is rounded.
-  const double rounding = SameRotary(from.rotary, to.rotary) ? kExactly : -kRounding;
+  const double rounding = SameRotary(from.rotary, to.rotary) ? kExactly : -kTimeRounding;
   const auto slow = geometry_.TooSlow(from, to, time * (1.0 + rounding));
   if (!slow) return true;
   const double feed = 60.0 * move.feed.value * time / slow->time;

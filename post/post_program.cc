@@ -22,14 +22,19 @@ class Recorder : public PlanSink {
 
   void OnStep(const PlanStep& step) override {
     if (program_.moves > kMostMoves) return;
+    const std::size_t before = streams_.size() - 1;
     writer_.OnStep(step);
+    // A step writes to the program, to the file of the operation that it ends, and to its own.
+    for (const std::size_t file : {std::size_t{0}, before, streams_.size() - 1}) {
+      TellLines(file, step.where.line);
+    }
     if (const auto* operation = std::get_if<PlanOperation>(&step.what)) {
       PostedOperation begun;
       begun.operation = step.modal->operation->index;
       begun.where = step.where;
       begun.mode = operation->mode;
       begun.file = streams_.size() - 1;
-      begins_.push_back(static_cast<std::size_t>(streams_.back().tellp()));
+      begun.line = written_.back().lines + 1;
       program_.operations.push_back(begun);
     } else if (std::holds_alternative<PlanMove>(step.what) ||
                std::holds_alternative<PlanHole>(step.what)) {
@@ -47,9 +52,6 @@ class Recorder : public PlanSink {
       PostedOperation& operation = program_.operations[i];
       operation.ways = choices[i].ways;
       operation.taken = choices[i].taken;
-      const std::string& text = program_.files[operation.file].text;
-      const auto end = text.begin() + static_cast<std::ptrdiff_t>(begins_[i]);
-      operation.line = 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
     }
     return std::move(program_);
   }
@@ -57,15 +59,31 @@ class Recorder : public PlanSink {
  private:
   std::ostringstream& Open(const std::string& name) {
     program_.files.push_back({name, ""});
+    written_.emplace_back();
     return streams_.emplace_back();
+  }
+  /// What has come to a file comes from that line.
+  void TellLines(std::size_t file, int cl_line) {
+    Written& written = written_[file];
+    const std::string_view text = streams_[file].view();
+    if (text.size() == written.bytes) return;
+    program_.files[file].lines.Add(written.lines + 1, cl_line);
+    const std::string_view more = text.substr(written.bytes);
+    written.lines += static_cast<int>(std::count(more.begin(), more.end(), '\n'));
+    written.bytes = text.size();
   }
   NcWriter::OpenFile OpenerOf(const PostJob& job) {
     if (!job.file_for_operation) return nullptr;
     return [this](const std::string& name) { return &Open(name); };
   }
 
+  struct Written {
+    std::size_t bytes = 0;
+    int lines = 0;
+  };
+
   PostedProgram program_;
-  std::vector<std::size_t> begins_;         ///< Of the operations, in their files' texts.
+  std::vector<Written> written_;            ///< To each file.
   std::deque<std::ostringstream> streams_;  // A deque: the writer keeps pointers.
   NcWriter writer_;
 };

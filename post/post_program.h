@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "post/cl_path.h"
+#include "post/line_map.h"
 #include "post/planner.h"
 #include "post/writer.h"
 
@@ -28,6 +29,7 @@ ClSummary ReadCl(const std::shared_ptr<const nc::Program>& cl, const ClOptions& 
 struct PostedFile {
   std::string name;  ///< Of an operation's file, with its extension; "" for the program itself.
   std::string text;
+  LineMap lines{};  ///< Of a retract, a turn, a tool change: what they stand before.
 };
 
 /// What an operation has become. Where it begins the machine still stands as the one before has

@@ -8,10 +8,11 @@
 #include <optional>
 #include <tuple>
 
+#include "sim/base/units.h"
+
 namespace ncsim::post {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSame = 1e-9;  // rad
 /// Where to rewind: as late as can be, and earlier in the stretch since the last rewind, where
 /// check finds that in the way.

@@ -10,8 +10,8 @@
 namespace ncsim::post {
 namespace {
 
-constexpr std::array<Value, 6> kWords = {Value::kWord1, Value::kWord2, Value::kWord3,
-                                         Value::kWord4, Value::kWord5, Value::kWord6};
+constexpr std::array<Value, 6> kWordValues = {Value::kWord1, Value::kWord2, Value::kWord3,
+                                              Value::kWord4, Value::kWord5, Value::kWord6};
 
 std::string_view KeyOf(cl::Coolant::Mode mode) {
   switch (mode) {
@@ -412,9 +412,9 @@ void NcWriter::Handle(const cl::PostWord& word) {
     return;
   }
   std::string comment = word.major;
-  for (std::size_t i = 0; i < kWords.size(); ++i) {
-    values_.Clear(kWords[i]);
-    if (i < word.values.size()) values_.Set(kWords[i], word.values[i]);
+  for (std::size_t i = 0; i < kWordValues.size(); ++i) {
+    values_.Clear(kWordValues[i]);
+    if (i < word.values.size()) values_.Set(kWordValues[i], word.values[i]);
   }
   for (const std::string& value : word.values) comment += " " + value;
   Apply(found->second, comment);

@@ -13,6 +13,7 @@
 #include "sim/app/app.h"
 #include "sim/app/assumptions.h"
 #include "sim/app/finding_log.h"
+#include "sim/app/line_origins.h"
 #include "sim/app/nominal.h"
 #include "sim/app/pictures.h"
 #include "sim/app/pipeline.h"
@@ -30,12 +31,13 @@ class ProgramCheck {
  public:
   ProgramCheck(const CheckOptions& options, const std::string& program,
                const ProgressReport& progress, const collision::OutcomeCache* cache,
-               std::shared_ptr<const nc::Program> text)
+               std::shared_ptr<const nc::Program> text, const PostedLines* posted)
       : options_(options),
         name_(program),
         progress_(progress),
         cache_(cache),
         program_(std::move(text)),
+        posted_(posted),
         pictures_(options) {}
 
   ProgramOutcome Run() {
@@ -51,6 +53,7 @@ class ProgramCheck {
     }
     if (!CloseTrace()) return std::move(outcome_);
     Judge();
+    TraceOrigins();
     if (!WritePictures()) return std::move(outcome_);
     Report();
     outcome_.result = std::move(result_);
@@ -248,6 +251,14 @@ class ProgramCheck {
     result.motion_time = summary_.motion_time;
   }
 
+  void TraceOrigins() {
+    SourceLines texts(files_);
+    texts.Know(0, program_);
+    LineOrigins origins(&files_, &texts, posted_);
+    origins.Trace(&result_.findings);
+    for (const std::string& note : origins.notes()) Complain(note);
+  }
+
   std::vector<std::string> AssumptionNames() const {
     std::vector<std::string> names;
     for (const Assumption& assumption : summary_.assumptions) names.push_back(assumption.name);
@@ -275,6 +286,7 @@ class ProgramCheck {
   ProgramOutcome outcome_;
   Diagnostics diagnostics_;
   std::shared_ptr<const nc::Program> program_;
+  const PostedLines* posted_;
   std::optional<machine::Job> job_;
   std::optional<machine::Machine> machine_;
   machine::ToolTable tools_;
@@ -295,8 +307,8 @@ class ProgramCheck {
 
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
                             const ProgressReport& progress, const collision::OutcomeCache* cache,
-                            std::shared_ptr<const nc::Program> text) {
-  return ProgramCheck(options, program, progress, cache, std::move(text)).Run();
+                            std::shared_ptr<const nc::Program> text, const PostedLines* posted) {
+  return ProgramCheck(options, program, progress, cache, std::move(text), posted).Run();
 }
 
 }  // namespace ncsim::app

@@ -19,6 +19,8 @@ class OutcomeCache;
 
 namespace ncsim::app {
 
+struct PostedLines;
+
 struct ProgramOutcome {
   int exit_code = 0;
   std::string report;    ///< Text or JSON; "" where there is none, and in formats of all programs.
@@ -32,8 +34,10 @@ struct ProgramOutcome {
 
 /// Checks one program. `progress`, if not empty, is told how far it is. `cache` may be null.
 /// `text`: the program, where it is in no file yet; null: it is read from the file `program`.
+/// `posted`: where it comes from; null: that is looked up beside it.
 ProgramOutcome CheckProgram(const CheckOptions& options, const std::string& program,
                             const ProgressReport& progress, const collision::OutcomeCache* cache,
-                            std::shared_ptr<const nc::Program> text = nullptr);
+                            std::shared_ptr<const nc::Program> text = nullptr,
+                            const PostedLines* posted = nullptr);
 
 }  // namespace ncsim::app

@@ -68,6 +68,7 @@ class NightlyRun {
     return options_.out + "/shards/" + std::to_string(index) + "-of-" + std::to_string(count) +
            ".json";
   }
+  std::string PagesFolder() const { return options_.out + "/reports"; }
 
   bool Prepare() {
     Diagnostics diagnostics;
@@ -86,6 +87,7 @@ class NightlyRun {
     day_ = options_.today.empty() ? Today() : options_.today;
     std::error_code error;
     fs::create_directories(options_.out + "/shards", error);
+    if (!error && options_.reports) fs::create_directories(PagesFolder(), error);
     if (error) Complain(options_.out, "cannot be made: " + error.message());
     return !error && FindBuild();
   }
@@ -127,7 +129,13 @@ class NightlyRun {
       Complain(scratch, "cannot be made");
       return std::nullopt;
     }
-    nightly::RunOptions run{executable_, build_, manifest_.root, scratch, options_.jobs, 0};
+    nightly::RunOptions run{executable_,
+                            build_,
+                            manifest_.root,
+                            scratch,
+                            options_.jobs,
+                            0,
+                            options_.reports ? PagesFolder() : ""};
     if (run.jobs > 1) run.threads = std::max(1, collision::DefaultThreads() / run.jobs);
     std::size_t done = 0, checked = 0;
     const auto known = [&](const Entry& entry) {
@@ -146,6 +154,11 @@ class NightlyRun {
       }
     };
     auto results = nightly::RunChecks(entries, run, known, progress);
+    for (const Result& result : results) {
+      if (!options_.reports || !result.report) continue;
+      const std::string page = PagesFolder() + "/" + nightly::PageName(result);
+      if (!IsFile(page)) err_ << page << ": warning: could not be written\n";
+    }
     err_ << checked << " of " << entries.size()
          << " programs were checked, the others are as they were\n";
     return results;
@@ -230,9 +243,28 @@ class NightlyRun {
     return results;
   }
 
+  /// Pages of results that are no more are removed.
+  void LinkPages(const std::vector<Result>& results, nightly::Night* night) {
+    std::set<std::string> linked;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (!results[i].report) continue;
+      const std::string page = nightly::PageName(results[i]);
+      if (IsFile(PagesFolder() + "/" + page)) {
+        night->rows[i].page = "reports/" + page;
+        linked.insert(page);
+      }
+    }
+    const std::regex pattern(".*-[0-9a-f]{32}\\.html");
+    std::error_code ignored;
+    for (const std::string& name : NamesIn(PagesFolder())) {
+      const bool ours = std::regex_match(name, pattern);
+      if (ours && linked.count(name) == 0) fs::remove(PagesFolder() + "/" + name, ignored);
+    }
+  }
+
   int Close(const std::vector<Result>& results) {
-    const nightly::Night night =
-        nightly::JudgeNight(day_, manifest_, results, baseline_, history_.get());
+    nightly::Night night = nightly::JudgeNight(day_, manifest_, results, baseline_, history_.get());
+    LinkPages(results, &night);
     std::vector<int> codes;
     for (const nightly::Row& row : night.rows) codes.push_back(row.exit_code());
     const auto write = [&](const char* name, void (*writer)(const nightly::Night&, std::ostream&)) {

@@ -193,6 +193,8 @@ class CommandLine {
         ->type_name("T");
     post_->add_flag("--split", o.file_for_operation,
                     "a file for each operation beside OUT, and a program that calls them");
+    post_->add_flag("--map", o.map,
+                    "leave OUT.lines beside OUT, from which check knows the CL file's lines");
     post_->add_flag("--no-check", no_check_, "write without checking");
     post_->add_option("--assume", assume_, "as for check")
         ->type_name("all|NAME,...")
@@ -258,6 +260,9 @@ class CommandLine {
     nightly_
         ->add_option("--jobs", o.jobs, "programs to check at a time (default: one after another)")
         ->type_name("N");
+    nightly_->add_flag(
+        "--reports", o.reports,
+        "a page of each program, as check --report writes it, linked from the table");
     nightly_->add_flag("--all", o.all, "check also what has not changed");
     nightly_
         ->add_option("--shard", shard_, "check part I, from 0, of N parts, and leave it in --out")
@@ -373,6 +378,7 @@ class CommandLine {
       return "post needs a CL file: ncsim post part.cls --model umc750.urdf -o part.nc";
     }
     if (o.file_for_operation && o.out.empty()) return "--split needs --out: the files go beside it";
+    if (o.map && o.out.empty()) return "--map needs --out: the map goes beside it";
     return "";
   }
 
@@ -431,6 +437,7 @@ class CommandLine {
     if (o.merge && (o.shard_count > 0 || o.all)) {
       return "--merge makes a night of what was checked: without --shard and --all";
     }
+    if (o.merge && o.reports) return "--reports goes with --shard: a merge checks nothing";
     if (o.shard_count > 0 && !o.baseline.empty()) return "--baseline goes with --merge";
     return "";
   }

@@ -65,6 +65,7 @@ struct PostCommandOptions {
   std::optional<int> first_tool;     ///< In the spindle where the file loads none.
   ClInput cl;
   bool file_for_operation = false;
+  bool map = false;  ///< A map of its lines beside each program.
   bool check = true;
   std::vector<std::string> assume;  ///< As CheckOptions.
   bool strict = false;
@@ -83,6 +84,7 @@ struct NightlyOptions {
   bool all = false;                ///< Also what has not changed.
   int shard = 0, shard_count = 0;  ///< Count 0: not a shard.
   bool merge = false;
+  bool reports = false;    ///< A page of each program.
   std::string executable;  ///< That checks; "" for this program.
 };
 

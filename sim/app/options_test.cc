@@ -155,6 +155,8 @@ TEST_F(OptionsTest, BadUsageOfNightly) {
   EXPECT_THAT(Error({"nightly", "p", "--merge", "--all"}), HasSubstr("--merge makes a night"));
   EXPECT_THAT(Error({"nightly", "p", "--merge", "--shard", "0/1"}),
               HasSubstr("--merge makes a night"));
+  EXPECT_THAT(Error({"nightly", "p", "--merge", "--reports"}),
+              HasSubstr("--reports goes with --shard"));
   EXPECT_THAT(Error({"nightly", "p", "--shard", "0/1", "--baseline", "b"}),
               HasSubstr("--baseline goes with --merge"));
   EXPECT_THAT(Error({"nightly", "p", "--today", "2026-02-30"}), HasSubstr("--today takes a day"));

@@ -17,8 +17,10 @@
 #include "post/post_program.h"
 #include "sim/app/app.h"
 #include "sim/app/compare_command.h"
+#include "sim/app/line_origins.h"
 #include "sim/app/post_candidates.h"
 #include "sim/app/program_input.h"
+#include "sim/base/digest.h"
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/control/part_frames.h"
@@ -72,7 +74,7 @@ class Posting {
     std::optional<Judged> best =
         FindPassing([&](const auto& choice) { return Candidate(options, choice); }, limit, &notes);
     if (!best) Say(unposted_);
-    if (!best || !Write(best->program, out)) return kExitBadInput;
+    if (!best || !Write(best->program, out) || !WriteMaps(best->program)) return kExitBadInput;
     for (const std::string& note : notes) Complain(name_ + ": note: " + note);
     std::ostream& report = options_.out.empty() ? *err_ : out;
     TellWritten(best->program, report);
@@ -264,8 +266,13 @@ class Posting {
     check.job = job_.path;
     check.assume = options_.assume;
     check.strict = options_.strict;
-    judged.outcome = CheckProgram(check, name_, {}, nullptr,
-                                  nc::Program::FromText(name_, judged.program.files.front().text));
+    PostedLines posted{options_.cl_file, {}};
+    for (const post::PostedFile& file : judged.program.files) {
+      posted.lines[PathOf(file)] = file.lines;
+    }
+    judged.outcome =
+        CheckProgram(check, name_, {}, nullptr,
+                     nc::Program::FromText(name_, judged.program.files.front().text), &posted);
     return judged;
   }
 
@@ -276,11 +283,28 @@ class Posting {
     return file ? true : Complain(path + ": error: cannot be written");
   }
 
+  /// The program itself, or the file of an operation beside it.
+  std::string PathOf(const post::PostedFile& file) const {
+    if (file.name.empty()) return name_;
+    return (fs::path(options_.out).parent_path() / file.name).string();
+  }
+
   bool WriteOperations(const post::PostedProgram& program) {
-    const fs::path folder = fs::path(options_.out).parent_path();
     for (std::size_t i = 1; i < program.files.size(); ++i) {
-      const post::PostedFile& file = program.files[i];
-      if (!WriteFile((folder / file.name).string(), file.text)) return false;
+      if (!WriteFile(PathOf(program.files[i]), program.files[i].text)) return false;
+    }
+    return true;
+  }
+
+  /// `--map`
+  bool WriteMaps(const post::PostedProgram& program) {
+    if (!options_.map) return true;
+    const fs::path cl = fs::absolute(options_.cl_file).lexically_normal();
+    const fs::path folder = fs::absolute(options_.out).lexically_normal().parent_path();
+    for (const post::PostedFile& file : program.files) {
+      const post::LineMapFile map{ToString(DigestOf(file.text)), ToString(DigestOf(cl_->text())),
+                                  cl.lexically_proximate(folder).generic_string(), file.lines};
+      if (!WriteFile(LineMapPath(PathOf(file)), post::WriteLineMap(map))) return false;
     }
     return true;
   }

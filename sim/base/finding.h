@@ -67,6 +67,7 @@ struct Finding {
   /// coordinates, mm (Machine::Coordinates); or empty.
   std::vector<std::array<double, 3>> points;
   std::optional<double> time_s;
+  std::optional<SourcePosition> posted_from;  ///< In the cutter-location file, where it is known.
 };
 
 /// Makes a finding with the rule's default severity.

@@ -8,6 +8,12 @@
 
 namespace ncsim {
 
+std::string Upper(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) c = Upper(c);
+  return upper;
+}
+
 std::string Fixed(double value, int decimals) {
   std::array<char, 512> buffer;
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,

@@ -8,6 +8,12 @@
 
 namespace ncsim {
 
+// Of ASCII, whatever the locale.
+constexpr bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+constexpr bool IsLetter(char c) { return Upper(c) >= 'A' && Upper(c) <= 'Z'; }
+std::string Upper(std::string_view text);
+
 /// Fixed notation with `decimals` places; never "-0.000".
 std::string Fixed(double value, int decimals);
 

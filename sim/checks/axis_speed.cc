@@ -14,7 +14,7 @@ namespace ncsim::checks {
 namespace {
 
 /// Relative: rounding of a feed that was programmed to be just the axis' rate.
-constexpr double kRounding = 1e-6;
+constexpr double kSpeedRounding = 1e-6;
 /// mm, rad: what moves less rests.
 constexpr double kRests = 1e-9;
 
@@ -37,7 +37,7 @@ class AxisSpeedCheck : public Check {
     if (!IsFeed(motion)) return;
     const auto* curve = std::get_if<motion::TcpCurve>(&motion.path);
     const Demand demand = curve == nullptr ? Demand() : Worst(motion, TipPathLength(*curve));
-    if (demand.ratio <= 1.0 + kRounding) {
+    if (demand.ratio <= 1.0 + kSpeedRounding) {
       run_.Close(findings);
       return;
     }

@@ -13,7 +13,7 @@ namespace {
 /// rad, a millionth of a degree: far below the resolution of any control.
 constexpr double kMoves = 2e-8;
 
-constexpr int kSamples = 64;  // of a motion, for the words of a finding alone
+constexpr int kSamplesForWords = 64;  // of a motion, for the words of a finding alone
 
 class RotaryUnderTcpCheck : public Check {
  public:
@@ -45,8 +45,8 @@ class RotaryUnderTcpCheck : public Check {
   /// What the linear axes do so that the tip keeps to its way over the part.
   std::string Swing(const motion::Motion& motion) const {
     motion::JointVector farthest = motion::JointVector::Zero(motion.q0().size());
-    for (int i = 1; i <= kSamples; ++i) {
-      const double s = static_cast<double>(i) / kSamples;
+    for (int i = 1; i <= kSamplesForWords; ++i) {
+      const double s = static_cast<double>(i) / kSamplesForWords;
       farthest = farthest.cwiseMax((motion.At(s) - motion.q0()).cwiseAbs());
     }
     std::string text = "the linear axes swing at rapid to lead the tip with the part, ";

@@ -18,7 +18,7 @@ constexpr double kHalfDigit = Radians(0.0005);
 /// Travel limits: as in travel-limit.
 constexpr double kLimitTolerance = 1e-9;
 /// mm: a linear axis that moves less rests.
-constexpr double kRests = 1e-6;
+constexpr double kRestsOverWrap = 1e-6;
 
 class RotaryWrapCheck : public Check {
  public:
@@ -74,7 +74,7 @@ class RotaryWrapCheck : public Check {
     if (std::abs(std::remainder(turn[turning.joint], 2.0 * kPi)) <= kHalfDigit) return true;
     return !std::holds_alternative<motion::AxisArc>(motion.path) &&
            std::all_of(linear_.begin(), linear_.end(), [&](const machine::Axis* axis) {
-             return std::abs(turn[axis->joint]) <= kRests;
+             return std::abs(turn[axis->joint]) <= kRestsOverWrap;
            });
   }
 

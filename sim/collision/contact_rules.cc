@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "sim/base/units.h"
+
 namespace ncsim::collision {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void WatchClearance(const machine::CheckSettings& settings, Judgement* judgement) {
   judgement->widened = true;

@@ -9,16 +9,16 @@
 
 namespace ncsim::collision {
 
+void PutDigest(const Digest& digest, ByteWriter* out) {
+  for (const std::uint64_t word : digest.words) out->Put(word);
+}
+
 namespace {
 
 template <class Derived>
 void Put(const Eigen::MatrixBase<Derived>& matrix, ByteWriter* out) {
   out->Put(static_cast<int>(matrix.size()));
   for (Eigen::Index i = 0; i < matrix.size(); ++i) out->Put(matrix.derived().data()[i]);
-}
-
-void Put(const Digest& digest, ByteWriter* out) {
-  for (const std::uint64_t word : digest.words) out->Put(word);
 }
 
 void Put(const machine::Profile& profile, ByteWriter* out) {
@@ -83,13 +83,13 @@ void Put(const Pair& pair, ByteWriter* out) {
   out->Put(role);
   for (const std::string& name : names) out->PutText(name);
   out->Put(tool != nullptr);
-  Put(tool != nullptr ? tool->content : mesh_a->content, out);
-  Put(b->content, out);
+  PutDigest(tool != nullptr ? tool->content : mesh_a->content, out);
+  PutDigest(b->content, out);
   out->Put(swept != nullptr);
   if (swept == nullptr) return;
   // What the other body sweeps follows from it and the machine.
   const auto& [swept_body, mesh, mesh_is_a] = *swept;
-  Put(mesh->content, out);
+  PutDigest(mesh->content, out);
   out->Put(mesh_is_a);
 }
 
@@ -160,7 +160,7 @@ class MotionWriter {
       frame_ = frame;
       frame_content_ = DigestOf(out.bytes());
     }
-    collision::Put(frame_content_, out_);
+    collision::PutDigest(frame_content_, out_);
   }
 
   int cycle_;

@@ -10,12 +10,18 @@
 #include "sim/machine/tool.h"
 #include "sim/motion/travel.h"
 
+namespace ncsim {
+class ByteWriter;
+}
+
 namespace ncsim::collision {
 
 struct BlankState;
 struct PairCarry;
 struct PairSetup;
 struct ToolBody;
+
+void PutDigest(const Digest& digest, ByteWriter* out);
 
 Digest ContentOf(const machine::SceneBody& body);
 Digest ContentOf(const ToolBody& body, const machine::Profile& profile);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/units.h"
 #include "sim/collision/triangle_pair.h"
 
 namespace ncsim::collision {
@@ -15,7 +16,6 @@ using Eigen::Vector3d;
 using Node = BoxTree::Node;
 using Triangle = BoxTree::Triangle;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Rounding errors as parts of the coordinates' size: a bound is a dozen sums of products (2^-53
 // each), their root of three squares.
 constexpr double kRounding = 256.0 * 0x1p-53;

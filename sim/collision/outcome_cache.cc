@@ -14,18 +14,14 @@ namespace {
 /// back stay, and of other runs of the same motions.
 constexpr std::size_t kMostVersions = 6;
 
-void Put(const Digest& digest, ByteWriter* out) {
-  for (const std::uint64_t word : digest.words) out->Put(word);
-}
-
 }  // namespace
 
 KnownRun::KnownRun(RecordStore* store, const Digest& build, const motion::Travel& run,
                    std::uint64_t number, std::size_t pairs)
     : store_(store), place_(PlaceOf(run, number)), uses_(pairs) {
   ByteWriter name;
-  Put(build, &name);
-  Put(ContentOf(run, place_), &name);
+  PutDigest(build, &name);
+  PutDigest(ContentOf(run, place_), &name);
   name_ = DigestOf(name.bytes());
   record_ = store_->Read(name_).value_or("");
   entries_ = Entries(record_);
@@ -50,8 +46,8 @@ std::vector<KnownRun::Entry> KnownRun::Entries(std::string_view record) {
 Digest KnownRun::KeyOf(const Digest& content, const PairCarry& carry,
                        const BlankState* blank) const {
   ByteWriter key;
-  Put(content, &key);
-  Put(ContentOf(carry, blank, place_), &key);
+  PutDigest(content, &key);
+  PutDigest(ContentOf(carry, blank, place_), &key);
   return DigestOf(key.bytes());
 }
 
@@ -78,7 +74,7 @@ void KnownRun::Save() {
   std::set<Digest> written;
   const auto write = [&](const Digest& key, std::string_view bytes) {
     if (!written.insert(key).second) return;
-    Put(key, &out);
+    PutDigest(key, &out);
     out.PutText(bytes);
   };
   for (const Use& use : uses_) write(use.key, use.recalled ? use.known : use.fresh);

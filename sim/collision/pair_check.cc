@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/units.h"
 #include "sim/collision/contact_text.h"
 #include "sim/collision/witness.h"
 
@@ -12,7 +13,6 @@ namespace ncsim::collision {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kSweptPoses = 64;  // of one motion, before the pair itself is looked at
 // A contact that the kernel finds deeper than this must be seen by FCL on circumscribed meshes too.
 constexpr double kConfirmDepth = 0.02;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/base/units.h"
 #include "sim/collision/convex_minimum.h"
 
 namespace ncsim::collision {
@@ -12,9 +13,7 @@ namespace ncsim::collision {
 namespace {
 
 using Eigen::Vector3d;
-using Triangle = TriangleTree::Triangle;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Parts of a solid that is not convex meet in flat faces inside it: a point that is no further than
 // this from a part, mm, may lie deep in their union.
 constexpr double kInterface = 1e-9;
@@ -112,7 +111,7 @@ void ProfileDistance::Expand(const Cell& cell) {
       return ExpandTriangle(tree_->triangle(cell.index), cell.lower, true);
     default:
       free_pieces_.push_back(cell.index);
-      const Triangle piece = pieces_[static_cast<std::size_t>(cell.index)];
+      const TriangleTree::Triangle piece = pieces_[static_cast<std::size_t>(cell.index)];
       return ExpandTriangle(piece, cell.lower, cell.kind == Kind::kConvexPiece);
   }
 }
@@ -136,7 +135,7 @@ void ProfileDistance::ExpandLeaf(int leaf, double at_least) {
 // over all of the triangle by its least value at a corner. Newton's method brings that to the truth
 // in a few steps where the distance is smooth; where it is not, cutting planes do.
 double ProfileDistance::LeastOver(const ConvexProfile& convex, bool is_part,
-                                  const Triangle& piece) {
+                                  const TriangleTree::Triangle& piece) {
   constexpr int kSteps = 8;
   const bool is_whole = is_part && shape_->convex();
   TriangleDescent descent(piece);
@@ -192,7 +191,7 @@ ProfileDistance::Tangent ProfileDistance::TangentAt(const ConvexProfile& convex,
 }
 
 // Where the triangle may be inside a solid that is not convex, its parts bound nothing.
-double ProfileDistance::LeastOver(const Triangle& piece) {
+double ProfileDistance::LeastOver(const TriangleTree::Triangle& piece) {
   double least = kInfinity;
   for (const ConvexProfile& part : shape_->parts()) {
     least = std::min(least, LeastOver(part, true, piece));
@@ -201,7 +200,8 @@ double ProfileDistance::LeastOver(const Triangle& piece) {
   return least;
 }
 
-void ProfileDistance::ExpandTriangle(const Triangle& piece, double lower, bool solve) {
+void ProfileDistance::ExpandTriangle(const TriangleTree::Triangle& piece, double lower,
+                                     bool solve) {
   if (solve) lower = std::max(lower, LeastOver(piece));
   if (lower >= enough_ || upper_ < goal_.stop_below) {
     passed_ = std::min(passed_, lower);
@@ -226,7 +226,7 @@ void ProfileDistance::ExpandTriangle(const Triangle& piece, double lower, bool s
 
 // The distance changes by no more than the way. And no point is deeper than it is far from any one
 // point of the surface; that way is longest to a corner.
-void ProfileDistance::PushPiece(const Triangle& piece, double at_least) {
+void ProfileDistance::PushPiece(const TriangleTree::Triangle& piece, double at_least) {
   ++evaluations_;
   const Vector3d centre = (piece[0] + piece[1] + piece[2]) / 3.0;
   double squared = 0.0;

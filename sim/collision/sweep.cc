@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/units.h"
+
 namespace ncsim::collision {
 
 namespace {
@@ -12,7 +14,6 @@ namespace {
 using motion::Motion;
 using motion::Span;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGapOfBound = 0.2;
 constexpr double kCutOut = 0.9;           // of what a clearance covers if the travel is even
 constexpr double kBestOfBounds = 0.4;     // of what the totals say of a motion

@@ -165,7 +165,8 @@ std::vector<RapidEnd> CloseGaps(Toolpath* path, const Radii& radii) {
   return closed;
 }
 
-void DropRests(Toolpath* path, const Radii& radii) {
+std::vector<Rest> TakeRests(Toolpath* path, const Radii& radii) {
+  std::vector<Rest> taken;
   std::vector<Run> runs;
   std::vector<Gap> gaps;
   if (!path->gaps.empty()) gaps.push_back(std::move(path->gaps.front()));
@@ -178,6 +179,7 @@ void DropRests(Toolpath* path, const Radii& radii) {
     if (rests) {
       gaps.back().tool_change = gaps.back().tool_change || behind.tool_change;
       gaps.back().ends.insert(gaps.back().ends.end(), behind.ends.begin(), behind.ends.end());
+      taken.push_back({std::move(run), runs.size()});
       continue;
     }
     runs.push_back(std::move(run));
@@ -185,6 +187,7 @@ void DropRests(Toolpath* path, const Radii& radii) {
   }
   path->runs = std::move(runs);
   path->gaps = std::move(gaps);
+  return taken;
 }
 
 Run Join(const Toolpath& path, std::size_t begin, std::size_t end, std::vector<Piece>* pieces) {

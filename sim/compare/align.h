@@ -37,9 +37,15 @@ std::vector<RunPair> PairByEnds(const std::vector<Run>& a, const std::vector<Run
 /// where the feed was left.
 std::vector<RapidEnd> CloseGaps(Toolpath* path, const Radii& radii);
 
-/// Leaves out runs that are shorter than the tolerance: where points are rounded they may fall
-/// away.
-void DropRests(Toolpath* path, const Radii& radii);
+/// A run that is shorter than the tolerance, and before which of the others it stood.
+struct Rest {
+  Run run;
+  std::size_t before = 0;
+};
+
+/// Takes out runs that are shorter than the tolerance: where points are rounded they may fall away,
+/// or grow beyond it.
+std::vector<Rest> TakeRests(Toolpath* path, const Radii& radii);
 
 /// Runs [begin, end) as one, each gap closed by a straight rapid, for which `pieces` gets entries.
 Run Join(const Toolpath& path, std::size_t begin, std::size_t end, std::vector<Piece>* pieces);

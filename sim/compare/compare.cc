@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -65,7 +66,8 @@ class Comparer {
 
   Comparison Compare() {
     NoteClosedGaps();
-    for (Toolpath* path : {&a_, &b_}) DropRests(path, radii_);
+    rests_a_ = TakeRests(&a_, radii_);
+    rests_b_ = TakeRests(&b_, radii_);
     const std::vector<Block> blocks = Align(a_.runs, b_.runs, radii_);
     FindMoved(blocks);
     bool alike = false;  // the run before
@@ -122,13 +124,31 @@ class Comparer {
     }
     for (const RunPair& pair : PairByEnds(a_.runs, b_.runs, of_a, of_b, radii_)) {
       if (pair.b == RunPair::kNone) {
-        Lost(pair.a);
+        const Run& run = a_.runs[pair.a];
+        const std::optional<Run> rest = TakeRest(run, block.b0, block.b1, &rests_b_);
+        rest ? RunCompare(Parts()).Compare(run, *rest, {}) : Lost(pair.a);
       } else if (pair.a == RunPair::kNone) {
-        Extra(pair.b);
+        const Run& run = b_.runs[pair.b];
+        const std::optional<Run> rest = TakeRest(run, block.a0, block.a1, &rests_a_);
+        rest ? RunCompare(Parts()).Compare(*rest, run, {}) : Extra(pair.b);
       } else {
         HoldRuns(pair.a, pair.b);
       }
     }
+  }
+
+  /// Takes what the other program has of a run that is hardly longer than the tolerance: there it
+  /// is shorter.
+  std::optional<Run> TakeRest(const Run& run, std::size_t begin, std::size_t end,
+                              std::vector<Rest>* rests) const {
+    const auto same = [&](const Rest& rest) {
+      return begin <= rest.before && rest.before <= end && SameEnds(rest.run, run, radii_);
+    };
+    const auto found = std::find_if(rests->begin(), rests->end(), same);
+    if (found == rests->end()) return std::nullopt;
+    Run taken = std::move(found->run);
+    rests->erase(found);
+    return taken;
   }
 
   static SourcePosition WhereOf(const Toolpath& path, std::uint32_t piece) {
@@ -290,6 +310,7 @@ class Comparer {
   Radii radii_;
   bool poor_ = false;
   Largest position_, axis_;
+  std::vector<Rest> rests_a_, rests_b_;
   std::set<std::size_t> moved_a_;
   std::map<std::size_t, std::size_t> moved_b_;
   SourcePosition last_a_, last_b_;  // where the last runs that were held end

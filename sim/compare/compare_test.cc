@@ -237,6 +237,27 @@ TEST_F(CompareTest, AFeedThatIsShorterThanTheToleranceMayFallAway) {
   EXPECT_THAT(Rules(Hold(path(Old(), 0.02), path(New(), 0.0))), ElementsAre("feed-lost@2"));
 }
 
+// The tolerance lies between what the one and the other, rounded, has of it.
+TEST_F(CompareTest, AFeedAboutAsShortAsTheToleranceIsFoundInBoth) {
+  const double tolerance = Tolerances().position;
+  const auto path = [](Path start, double x, double z, int times = 1) {
+    start.Rapid(At(0, 0, 5)).Feed(At(9, 0, 5));
+    for (int i = 0; i < times; ++i) start.Rapid(At(x, i, 5)).Feed(At(x, i, 5.0 - z));
+    return start.Rapid(At(40, 0, 5)).Feed(At(50, 0, 5));
+  };
+  const double less = 0.9 * tolerance, more = 1.4 * tolerance;
+  EXPECT_THAT(Rules(Hold(path(Old(), 20, less), path(New(), 20, more))), IsEmpty());
+  EXPECT_THAT(Rules(Hold(path(Old(), 20, more), path(New(), 20, less))), IsEmpty());
+  EXPECT_THAT(Rules(Hold(path(Old(), 20, less), path(New(), 21, more))),
+              ElementsAre("feed-extra@4"));
+  EXPECT_THAT(Rules(Hold(path(Old(), 20, more), path(New(), 21, less))),
+              ElementsAre("feed-lost@2"));
+  EXPECT_THAT(Rules(Hold(path(Old(), 20, less), path(New(), 20, 2.2 * tolerance))),
+              ElementsAre("feed-extra@4"));
+  EXPECT_THAT(Rules(Hold(path(Old(), 20, less), path(New(), 20, more, 2))),
+              ElementsAre("feed-extra@6"));
+}
+
 // Way by time: of a short block the ends are rounded.
 TEST_F(CompareTest, AFeedThatATimeTellsIsAsExactAsItsEnds) {
   const auto path = [](Path start, double feed, double slack) {

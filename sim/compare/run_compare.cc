@@ -14,7 +14,7 @@ namespace {
 /// Stretches of one run that are told apart; behind them the rest is one.
 constexpr int kMostFaults = 200;
 /// In radii: a way that is shorter is none.
-constexpr double kLeastWay = 8.0;
+constexpr double kLeastWayBehind = 8.0;
 /// In radii: what is nearer is at one place.
 constexpr double kMeets = 0.25;
 
@@ -68,7 +68,7 @@ void RunCompare::Measure(const Run& reference, const Run& tested, const std::vec
   std::uint32_t piece_a = 0, piece_b = 0;
   double length = 0.0;
   const auto flush = [&] {
-    if (length > kLeastWay * parts_.radii.position) {
+    if (length > kLeastWayBehind * parts_.radii.position) {
       const Piece& a = (*parts_.reference)[piece_a];
       const Piece& b = (*parts_.tested)[piece_b];
       if (a.rapid == b.rapid) {
@@ -117,7 +117,7 @@ void RunCompare::ReportRapid(const Piece& reference, const Piece& tested) {
 
 bool RunCompare::Rests(const Run& run) const {
   return std::all_of(run.vertices.begin(), run.vertices.end(), [&](const Pose& pose) {
-    return Ratio(Between(pose, run.vertices.front()), parts_.radii) <= kLeastWay;
+    return Ratio(Between(pose, run.vertices.front()), parts_.radii) <= kLeastWayBehind;
   });
 }
 

@@ -12,11 +12,11 @@ namespace {
 
 // Below this an end is the start (and a radius nothing): sums of G91 words differ from the sum by
 // rounding only.
-constexpr double kSamePoint = 1e-7;
+constexpr double kSameArcPoint = 1e-7;
 
 constexpr char kCentreLetter[3] = {'I', 'J', 'K'};
 
-struct InPlane {
+struct PlaneVector {
   double first = 0.0, second = 0.0;
 };
 
@@ -30,10 +30,10 @@ double Sweep(double a0, double a1, bool clockwise) {
 
 // The centre of an arc of radius |r| over the chord, relative to the start; |r| may fall short of
 // half the chord by half the tolerance.
-std::optional<InPlane> CentreFromRadius(InPlane chord, double r, bool clockwise, double tolerance,
-                                        std::string* error) {
+std::optional<PlaneVector> CentreFromRadius(PlaneVector chord, double r, bool clockwise,
+                                            double tolerance, std::string* error) {
   const double length = std::hypot(chord.first, chord.second);
-  if (length < kSamePoint) {
+  if (length < kSameArcPoint) {
     *error = "an arc with R needs an end point that is not the start; a full circle needs I, J, K";
     return std::nullopt;
   }
@@ -47,11 +47,12 @@ std::optional<InPlane> CentreFromRadius(InPlane chord, double r, bool clockwise,
   const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
   // To the left of the chord for a counter-clockwise arc of at most 180 degrees.
   const double side = (clockwise == (r > 0.0)) ? -1.0 : 1.0;
-  return InPlane{0.5 * chord.first - side * height * chord.second / length,
-                 0.5 * chord.second + side * height * chord.first / length};
+  return PlaneVector{0.5 * chord.first - side * height * chord.second / length,
+                     0.5 * chord.second + side * height * chord.first / length};
 }
 
-std::optional<InPlane> CentreFromOffsets(Plane plane, const ArcWords& words, std::string* error) {
+std::optional<PlaneVector> CentreFromOffsets(Plane plane, const ArcWords& words,
+                                             std::string* error) {
   const PlaneAxes axes = AxesOf(plane);
   const std::optional<double>& normal = words.ijk[static_cast<std::size_t>(axes.normal)];
   if (normal && *normal != 0.0) {
@@ -66,7 +67,7 @@ std::optional<InPlane> CentreFromOffsets(Plane plane, const ArcWords& words, std
              " and " + kCentreLetter[std::max(axes.first, axes.second)];
     return std::nullopt;
   }
-  return InPlane{first.value_or(0.0), second.value_or(0.0)};
+  return PlaneVector{first.value_or(0.0), second.value_or(0.0)};
 }
 
 bool HasOffsets(const ArcWords& words) {
@@ -91,12 +92,13 @@ std::string PlaneName(Plane plane) {
 std::optional<Arc> ResolveArc(Plane plane, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
                               const ArcWords& words, double tolerance, std::string* error) {
   const PlaneAxes axes = AxesOf(plane);
-  const InPlane chord{end[axes.first] - start[axes.first], end[axes.second] - start[axes.second]};
+  const PlaneVector chord{end[axes.first] - start[axes.first],
+                          end[axes.second] - start[axes.second]};
   if (words.r && HasOffsets(words)) {
     *error = "an arc has R as well as I, J or K";
     return std::nullopt;
   }
-  const std::optional<InPlane> to_centre =
+  const std::optional<PlaneVector> to_centre =
       words.r ? CentreFromRadius(chord, *words.r, words.clockwise, tolerance, error)
               : CentreFromOffsets(plane, words, error);
   if (!to_centre) return std::nullopt;
@@ -106,9 +108,9 @@ std::optional<Arc> ResolveArc(Plane plane, const Eigen::Vector3d& start, const E
   arc.centre[axes.first] += to_centre->first;
   arc.centre[axes.second] += to_centre->second;
   arc.start_radius = std::hypot(to_centre->first, to_centre->second);
-  const InPlane from_centre{chord.first - to_centre->first, chord.second - to_centre->second};
+  const PlaneVector from_centre{chord.first - to_centre->first, chord.second - to_centre->second};
   arc.end_radius = std::hypot(from_centre.first, from_centre.second);
-  if (!(arc.start_radius > kSamePoint) || !std::isfinite(arc.start_radius)) {
+  if (!(arc.start_radius > kSameArcPoint) || !std::isfinite(arc.start_radius)) {
     *error = "the radius of the arc is 0";
     return std::nullopt;
   }
@@ -119,7 +121,7 @@ std::optional<Arc> ResolveArc(Plane plane, const Eigen::Vector3d& start, const E
     return std::nullopt;
   }
   arc.start_angle = std::atan2(-to_centre->second, -to_centre->first);
-  arc.full_circle = std::hypot(chord.first, chord.second) < kSamePoint;
+  arc.full_circle = std::hypot(chord.first, chord.second) < kSameArcPoint;
   arc.sweep = arc.full_circle
                   ? (words.clockwise ? -2.0 * kPi : 2.0 * kPi)
                   : Sweep(arc.start_angle, std::atan2(from_centre.second, from_centre.first),
@@ -143,11 +145,11 @@ bool MakeArc(const AxisValues& start, const ArcWords& words, double tolerance, C
 Arc ArcOf(const AxisValues& start, const Command& command) {
   const PlaneAxes axes = AxesOf(command.plane);
   const auto from_centre = [&](const AxisValues& point) {
-    return InPlane{point[static_cast<std::size_t>(axes.first)] - command.centre[axes.first],
-                   point[static_cast<std::size_t>(axes.second)] - command.centre[axes.second]};
+    return PlaneVector{point[static_cast<std::size_t>(axes.first)] - command.centre[axes.first],
+                       point[static_cast<std::size_t>(axes.second)] - command.centre[axes.second]};
   };
-  const InPlane a = from_centre(start);
-  const InPlane b = from_centre(command.end);
+  const PlaneVector a = from_centre(start);
+  const PlaneVector b = from_centre(command.end);
   Arc arc;
   arc.centre = command.centre;
   arc.start_radius = std::hypot(a.first, a.second);

@@ -19,6 +19,14 @@ namespace ncsim::control {
 enum AxisIndex { kX, kY, kZ, kA, kB, kC, kNumAxes };
 /// X, Y, Z in mm; A, B, C in rad.
 using AxisValues = std::array<double, kNumAxes>;
+inline constexpr std::string_view kLetters = "XYZABC";
+/// Bits by AxisIndex.
+inline constexpr unsigned kLinearAxes = 1U << kX | 1U << kY | 1U << kZ;
+inline constexpr unsigned kRotaryAxes = 1U << kA | 1U << kB | 1U << kC;
+
+inline Eigen::Vector3d Linear(const AxisValues& values) {
+  return {values[kX], values[kY], values[kZ]};
+}
 
 /// The plane of arcs, cycles and compensation: first, second and normal axis.
 enum class Plane : std::uint8_t { kXY, kZX, kYZ };  // G17, G18, G19

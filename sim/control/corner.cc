@@ -21,7 +21,7 @@ bool HasCorner(const Command& command) {
          command.corner_chamfer_length != 0.0;
 }
 
-Eigen::Vector2d InPlane(const AxisValues& point, const PlaneAxes& axes) {
+Eigen::Vector2d PlanePoint(const AxisValues& point, const PlaneAxes& axes) {
   return {point[static_cast<std::size_t>(axes.first)],
           point[static_cast<std::size_t>(axes.second)]};
 }
@@ -136,9 +136,9 @@ bool CornerStage::Insert(Command* second) {
   const int corners = (first.corner_radius != 0.0) + (first.corner_chamfer != 0.0) +
                       (first.corner_chamfer_length != 0.0);
   if (corners > 1) return Alarm("stands beside " + std::string(names_.chamfer) + " in one block");
-  const Eigen::Vector2d corner = InPlane(first.end, axes);
-  const Eigen::Vector2d in = corner - InPlane(start_, axes);
-  const Eigen::Vector2d out = InPlane(second->end, axes) - corner;
+  const Eigen::Vector2d corner = PlanePoint(first.end, axes);
+  const Eigen::Vector2d in = corner - PlanePoint(start_, axes);
+  const Eigen::Vector2d out = PlanePoint(second->end, axes) - corner;
   const double in_length = in.norm();
   const double out_length = out.norm();
   if (in_length < kNoLength || out_length < kNoLength || second->plane != first.plane) {

@@ -8,15 +8,10 @@
 
 #include "sim/base/text.h"
 #include "sim/control/flow_state.h"
+#include "sim/control/limits.h"
 
 namespace ncsim::control {
 namespace {
-
-/// Findings of one text after its first syntax error, and how far they are looked for.
-constexpr int kMaxSyntaxFindings = 20;
-constexpr int kMaxSyntaxLines = 200'000;
-/// Of a computed word: what the parser allows for a written one.
-constexpr double kMaxWord = 1e9;
 
 /// What a message may carry of a comment: printable ASCII, and not too much of it.
 std::string Printable(std::string_view text) {

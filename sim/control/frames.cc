@@ -10,8 +10,6 @@
 namespace ncsim::control {
 namespace {
 
-Eigen::Vector3d Linear(const AxisValues& values) { return {values[kX], values[kY], values[kZ]}; }
-
 void SetLinear(const Eigen::Vector3d& point, AxisValues* values) {
   for (std::size_t i = 0; i < 3; ++i) (*values)[i] = point[static_cast<int>(i)];
 }
@@ -19,7 +17,6 @@ void SetLinear(const Eigen::Vector3d& point, AxisValues* values) {
 }  // namespace
 
 AxisMap::AxisMap(const machine::Machine& machine) : num_joints_(machine.tree.num_moving()) {
-  constexpr std::array<char, kNumAxes> kLetters = {'X', 'Y', 'Z', 'A', 'B', 'C'};
   for (std::size_t i = 0; i < kNumAxes; ++i) {
     data_[i] = machine.FindAxis(kLetters[i]);
     joints_[i] = data_[i] == nullptr ? -1 : data_[i]->joint;

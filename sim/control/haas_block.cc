@@ -12,8 +12,6 @@
 namespace ncsim::control {
 namespace {
 
-constexpr std::array<char, kNumAxes> kAxisLetters = {'X', 'Y', 'Z', 'A', 'B', 'C'};
-constexpr std::string_view kAllAxes = "XYZABC";
 // Beyond these no word of this control goes (a fourth of it is the manual's widest field).
 constexpr double kLongest = 1.0e6;  // mm
 constexpr double kWidest = 1.0e6;   // degrees
@@ -124,7 +122,7 @@ bool HaasBlock::LoadG(ResolvedWord* word) {
   if (spec->support == nc::Support::kUnsupported) Unsupported(*spec, word);
   if (spec->support == nc::Support::kNoMotionEffect) {
     Take(spec->words);
-    if (spec->number_x10 == 1000) Take(kAllAxes);  // G100 X0.
+    if (spec->number_x10 == 1000) Take(kLetters);  // G100 X0.
   }
   return true;
 }
@@ -170,7 +168,7 @@ void HaasBlock::Unsupported(const nc::CodeSpec& spec, ResolvedWord* word) {
   log_->ReportOnce(name, Rule::kUnsupportedCode, WhereOf(*word), std::move(message));
   Take(spec.words);
   if (spec.address == 'G' && !MovesAllTheSame(spec)) axes_taken_ = true;
-  if (axes_taken_) Take(kAllAxes);
+  if (axes_taken_) Take(kLetters);
 }
 
 bool HaasBlock::HasAnyOf(std::string_view addresses) const {
@@ -180,7 +178,7 @@ bool HaasBlock::HasAnyOf(std::string_view addresses) const {
 unsigned HaasBlock::AxisWords() const {
   unsigned bits = 0;
   for (std::size_t i = 0; i < kNumAxes; ++i) {
-    const ResolvedWord* word = Word(kAxisLetters[i]);
+    const ResolvedWord* word = Word(kLetters[i]);
     if (word != nullptr && !word->used) bits |= 1U << i;
   }
   return bits;
@@ -247,7 +245,7 @@ double HaasBlock::Angle(char address) {
 }
 
 double HaasBlock::Axis(int axis) {
-  const char letter = kAxisLetters[static_cast<std::size_t>(axis)];
+  const char letter = kLetters[static_cast<std::size_t>(axis)];
   return axis <= kZ ? Length(letter) : Angle(letter);
 }
 

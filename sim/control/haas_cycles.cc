@@ -7,15 +7,11 @@
 #include "sim/base/text.h"
 #include "sim/control/haas_interpreter.h"
 #include "sim/control/hole_patterns.h"
+#include "sim/control/limits.h"
 #include "sim/control/pocket_cycles.h"
 
 namespace ncsim::control {
-namespace {
-
-constexpr unsigned kRotary = 1U << kA | 1U << kB | 1U << kC;
-constexpr int kMaxRepeats = 10'000;
-
-}  // namespace
+namespace {}  // namespace
 
 bool HaasInterpreter::pattern() const {
   if (non_modal_ == nullptr) return false;
@@ -84,7 +80,7 @@ bool HaasInterpreter::ExecuteCycle() {
   const AxisValues values = TakeAxisWords(words);
   int repeats = 1;
   if (block_.Has('L')) {
-    const std::optional<int> l = block_.Integer('L', 0, kMaxRepeats);
+    const std::optional<int> l = block_.Integer('L', 0, kMaxHoleRepeats);
     if (!l) return false;
     repeats = *l;
   }
@@ -106,7 +102,7 @@ bool HaasInterpreter::DrillHole(const AxisValues& hole) {
     Unsupported("cycle under G234", block_.where(),
                 "the manual does not say how canned cycles run while G234 is active");
   }
-  if (dwo() && (command_.named & kRotary) != 0) {
+  if (dwo() && (command_.named & kRotaryAxes) != 0) {
     Unsupported("cycle turns under G254", block_.where(),
                 "a canned cycle that turns a rotary axis while G254 is active is not simulated");
     return true;
@@ -172,7 +168,7 @@ bool HaasInterpreter::ExecutePocket(bool clockwise) {
   }
   int repeats = 1;
   if (block_.Has('L')) {
-    const std::optional<int> l = block_.Integer('L', 0, kMaxRepeats);
+    const std::optional<int> l = block_.Integer('L', 0, kMaxHoleRepeats);
     if (!l) return false;
     repeats = *l;
   }

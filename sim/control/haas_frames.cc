@@ -6,16 +6,13 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/control/haas_interpreter.h"
+#include "sim/control/limits.h"
 
 namespace ncsim::control {
 namespace {
 
-// mm: a length register that differs more from the metal is said.
-constexpr double kLengthTolerance = 0.5;
 // rad, mm: an offset value that is entered as 0.
 constexpr double kZero = 1e-9;
-// Honest programs have tens; a macro that makes more must not eat memory.
-constexpr int kMaxPartFrames = 100'000;
 
 }  // namespace
 

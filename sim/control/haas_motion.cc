@@ -6,16 +6,10 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/control/haas_interpreter.h"
+#include "sim/control/limits.h"
 
 namespace ncsim::control {
-namespace {
-
-constexpr unsigned kLinear = 1U << kX | 1U << kY | 1U << kZ;
-constexpr unsigned kRotary = 1U << kA | 1U << kB | 1U << kC;
-// Beyond this a repeat count is a mistake, and must not run for hours.
-constexpr int kMaxRepeats = 10'000;
-
-}  // namespace
+namespace {}  // namespace
 
 bool HaasInterpreter::ExecuteNonModal() {
   if (CodeOf(kGroupNonModal) != nullptr && !Dwell()) return false;
@@ -112,7 +106,7 @@ bool HaasInterpreter::ExecuteMotion() {
   const ArcWords arc = is_arc ? TakeArcWords() : ArcWords();
   int repeats = 1;
   if (block_.Has('L')) {
-    const std::optional<int> l = block_.Integer('L', 0, kMaxRepeats);
+    const std::optional<int> l = block_.Integer('L', 0, kMaxHoleRepeats);
     if (!l) return false;
     repeats = *l;
   }
@@ -124,7 +118,7 @@ bool HaasInterpreter::ExecuteMotion() {
     if (!CheckFeed()) return false;
     CheckCancelledTcp(words);
   }
-  if ((words & kLinear) != 0 || is_arc) BeforeLinearMotion((words & 1U << kZ) != 0 || tcp());
+  if ((words & kLinearAxes) != 0 || is_arc) BeforeLinearMotion((words & 1U << kZ) != 0 || tcp());
   for (int i = 0; i < repeats && !log_.stopped(); ++i) {
     if (!Move(words, values, arc)) return false;
   }
@@ -134,7 +128,7 @@ bool HaasInterpreter::ExecuteMotion() {
 bool HaasInterpreter::Move(unsigned words, const AxisValues& values, const ArcWords& arc) {
   command_.end = Target(words, values);
   command_.named = static_cast<std::uint8_t>(words);
-  const bool turned = dwo() && (words & kRotary) != 0;
+  const bool turned = dwo() && (words & kRotaryAxes) != 0;
   if (IsSet(kGroupMotion, 0)) {
     command_.kind = CommandKind::kRapid;
   } else if (IsSet(kGroupMotion, 1)) {
@@ -180,7 +174,7 @@ bool HaasInterpreter::CheckFeed() {
 // A simultaneous feed in G94 is meant for G234 (without it the manual wants G93): where G43 or G44
 // has cancelled it, the program runs in a frame that is no longer there.
 void HaasInterpreter::CheckCancelledTcp(unsigned words) {
-  if (!tcp_cancelled_ || tcp() || (words & kLinear) == 0 || (words & kRotary) == 0 ||
+  if (!tcp_cancelled_ || tcp() || (words & kLinearAxes) == 0 || (words & kRotaryAxes) == 0 ||
       command_.feed_mode != Command::FeedMode::kPerMinute) {
     return;
   }

@@ -13,8 +13,6 @@ namespace {
 // Haas NGC Mill Operator's Manual 2017, setting 85: default .0250 in.
 constexpr double kDefaultCornerRounding = 0.025 * kMmPerInch;
 
-bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-
 // The number after a G at `at`, and that only: G20, G020 and g20 are 20, G200 and G20.1 are not.
 int CodeAt(std::string_view text, std::size_t at) {
   std::size_t i = at + 1;

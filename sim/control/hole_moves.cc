@@ -6,7 +6,7 @@
 namespace ncsim::control {
 namespace {
 
-constexpr double kNear = 1e-9;
+constexpr double kNearDirection = 1e-9;
 
 AxisValues Moved(AxisValues at, Plane plane, double distance, double angle) {
   const PlaneAxes axes = AxesOf(plane);
@@ -61,7 +61,7 @@ void HoleMoves::Dwell(double seconds) {
 
 void HoleMoves::Level(CommandKind kind, double level, double feed) {
   double& value = move_.end[static_cast<std::size_t>(axes_.normal)];
-  if (std::abs(value - level) < kNear) return;
+  if (std::abs(value - level) < kNearDirection) return;
   value = level;
   move_.feed = feed;
   Send(kind, static_cast<std::uint8_t>(1U << axes_.normal));

@@ -8,11 +8,7 @@
 #include "sim/machine/scene.h"
 
 namespace ncsim::control {
-namespace {
-
-constexpr std::array<char, kNumAxes> kLetters = {'X', 'Y', 'Z', 'A', 'B', 'C'};
-
-}  // namespace
+namespace {}  // namespace
 
 AxisValues GaugeAtMount(const machine::Machine& machine) {
   if (!machine.five_axis) return {};

@@ -24,8 +24,8 @@ constexpr double kCollinear = 1e-9;
 constexpr double kNoAngle = 1e-9;
 
 /// The plane's coordinates of start and end, and the way back.
-struct InPlane {
-  InPlane(const AxisValues& from, const Command& command) : axes(AxesOf(command.plane)) {
+struct ArcInPlane {
+  ArcInPlane(const AxisValues& from, const Command& command) : axes(AxesOf(command.plane)) {
     start = Of(from);
     end = Of(command.end);
   }
@@ -44,7 +44,7 @@ Vector2d Turned(const Vector2d& v, double angle) {
 
 std::string EndPoint(std::string why) { return nc::AlarmText(14040, std::move(why)); }
 
-std::string Accept(const AxisValues& start, const InPlane& plane, const Vector2d& centre,
+std::string Accept(const AxisValues& start, const ArcInPlane& plane, const Vector2d& centre,
                    bool clockwise, Command* command) {
   command->kind = CommandKind::kArc;
   command->centre = {start[kX], start[kY], start[kZ]};
@@ -56,8 +56,8 @@ std::string Accept(const AxisValues& start, const InPlane& plane, const Vector2d
   return "";
 }
 
-std::string ByRadius(const AxisValues& start, const InPlane& plane, double radius, bool clockwise,
-                     const CircleTolerance& tolerance, Command* command) {
+std::string ByRadius(const AxisValues& start, const ArcInPlane& plane, double radius,
+                     bool clockwise, const CircleTolerance& tolerance, Command* command) {
   const Vector2d chord = plane.end - plane.start;
   const double length = chord.norm();
   if (length < kSamePoint) return EndPoint("CR= with an end that is the start");
@@ -74,7 +74,7 @@ std::string ByRadius(const AxisValues& start, const InPlane& plane, double radiu
   return Accept(start, plane, centre, clockwise, command);
 }
 
-std::string ByAngle(const AxisValues& start, const InPlane& plane, double angle, bool clockwise,
+std::string ByAngle(const AxisValues& start, const ArcInPlane& plane, double angle, bool clockwise,
                     Command* command) {
   const Vector2d chord = plane.end - plane.start;
   if (!(angle > kNoAngle && angle < 2.0 * kPi - kNoAngle) || chord.norm() < kSamePoint) {
@@ -89,7 +89,7 @@ std::string ByAngle(const AxisValues& start, const InPlane& plane, double angle,
 }
 
 /// AR and the centre: the end follows.
-std::string ByAngleAboutCentre(const AxisValues& start, InPlane plane, const Vector2d& centre,
+std::string ByAngleAboutCentre(const AxisValues& start, ArcInPlane plane, const Vector2d& centre,
                                double angle, bool clockwise, Command* command) {
   if (!(angle > kNoAngle && angle <= 2.0 * kPi + kNoAngle)) {
     return EndPoint("AR= is not between 0 and 360");
@@ -103,8 +103,8 @@ std::string ByAngleAboutCentre(const AxisValues& start, InPlane plane, const Vec
   return Accept(start, plane, centre, clockwise, command);
 }
 
-std::string ByCentre(const AxisValues& start, const InPlane& plane, Vector2d centre, bool clockwise,
-                     const CircleTolerance& tolerance, Command* command) {
+std::string ByCentre(const AxisValues& start, const ArcInPlane& plane, Vector2d centre,
+                     bool clockwise, const CircleTolerance& tolerance, Command* command) {
   const double r0 = (plane.start - centre).norm(), r1 = (plane.end - centre).norm();
   if (r0 < kSamePoint) return EndPoint("the radius of the arc is 0");
   const double limit = std::max(tolerance.constant, r0 * tolerance.factor);
@@ -140,7 +140,7 @@ std::string ThroughPoint(const AxisValues& start, const Vector3d& through, Comma
   return "";
 }
 
-std::string Tangential(const AxisValues& start, const InPlane& plane, const Vector3d& tangent,
+std::string Tangential(const AxisValues& start, const ArcInPlane& plane, const Vector3d& tangent,
                        Command* command) {
   const Vector2d along(tangent[plane.axes.first], tangent[plane.axes.second]);
   const Vector2d chord = plane.end - plane.start;
@@ -162,7 +162,7 @@ std::string Tangential(const AxisValues& start, const InPlane& plane, const Vect
 std::string MakeSinumerikArc(const AxisValues& start, const SinumerikArcWords& words,
                              const CircleTolerance& tolerance, Command* command) {
   if (words.through) return ThroughPoint(start, *words.through, command);
-  const InPlane plane(start, *command);
+  const ArcInPlane plane(start, *command);
   if (words.tangent) return Tangential(start, plane, *words.tangent, command);
   const auto& c = words.centre;
   const bool has_centre = c[0] || c[1] || c[2];

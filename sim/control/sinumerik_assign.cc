@@ -14,7 +14,6 @@ using nc::SinumerikList;
 using nc::SinumerikType;
 
 constexpr double kMaxElementsOfOne = 65535.0;
-constexpr double kMaxText = 200.0;
 
 }  // namespace
 
@@ -204,11 +203,11 @@ bool SinumerikFlow::State::LoopVariable(const Part& part, Value* value) {
 
 void SinumerikFlow::State::Define() {
   const Part& definition = block.parts.front();
-  double length = kMaxText;
+  double length = nc::kMaxString;
   if (!definition.second.empty()) {
     Value value;
     if (!EvaluateAt(definition.second, &value)) return;
-    if (!value.is_number() || !(value.number >= 1.0 && value.number <= kMaxText)) {
+    if (!value.is_number() || !(value.number >= 1.0 && value.number <= nc::kMaxString)) {
       Alarm(definition.column, 12160, "a STRING has 1 to 200 characters");
       return;
     }

@@ -17,7 +17,6 @@ constexpr std::size_t kMaxPrograms = 16;
 constexpr std::size_t kMaxLevels = 32;
 /// Before PROC there may be comments only.
 constexpr int kMaxHeadLines = 1000;
-constexpr std::size_t kMaxText = 200;
 
 }  // namespace
 
@@ -105,7 +104,7 @@ void SinumerikFlow::State::ReportMissing(std::string_view name, int column) {
   std::string text;
   for (const char c : upper) text += c >= ' ' && c < '\x7f' ? c : '?';
   // Names of a letter and digits (L54) are near to many.
-  const bool slip = text.size() > 3 && !nc::IsDigit(text[1]);
+  const bool slip = text.size() > 3 && !IsDigit(text[1]);
   Unsupported(column, "the subprogram " + text + " was not simulated" +
                           (slip ? DidYouMean(text, nc::SinumerikCommandNames()) : "") + ": " +
                           programs.Where() + "; the control has it or stops with alarm 14011");
@@ -270,7 +269,8 @@ bool SinumerikFlow::State::BindParameter(const Part& parameter, Argument* argume
     return true;
   }
   std::vector<std::size_t> sizes(parameter.index_count, 1);
-  auto variable = std::make_shared<SinumerikVariable>(parameter.type, std::move(sizes), kMaxText);
+  auto variable =
+      std::make_shared<SinumerikVariable>(parameter.type, std::move(sizes), nc::kMaxString);
   std::string error;
   if (given) {
     if (argument->variable != nullptr && !argument->variable->sizes().empty()) {

@@ -17,10 +17,10 @@ using Strokes = SinumerikDrilling::Strokes;
 constexpr int kFirstMode = 4, kDegressionMode = 5, kReapproachMode = 6, kFactorMode = 7;
 
 /// Reads one call. Each step returns false when it has filled in alarm or unsupported.
-class Reader {
+class ParameterReader {
  public:
-  Reader(const SinumerikCycleArguments& arguments, const SinumerikCycleState& state,
-         SinumerikCycleAlarm* alarm, std::string* unsupported)
+  ParameterReader(const SinumerikCycleArguments& arguments, const SinumerikCycleState& state,
+                  SinumerikCycleAlarm* alarm, std::string* unsupported)
       : a_(arguments), state_(state), alarm_(alarm), unsupported_(unsupported) {
     words().cycle = 0;
     for (const char c : a_.cycle().name.substr(std::string_view("CYCLE").size())) {
@@ -58,13 +58,13 @@ class Reader {
 };
 
 /// Negative times are revolutions of the spindle. `unit`: 0 by the sign, 1 seconds, 2 revolutions.
-double Reader::Seconds(std::string_view parameter, int unit) const {
+double ParameterReader::Seconds(std::string_view parameter, int unit) const {
   const double value = a_.Number(parameter);
   if (unit == 1 || (unit == 0 && value >= 0.0)) return std::abs(value);
   return state_.rpm > 0.0 ? 60.0 * std::abs(value) / state_.rpm : 0.0;
 }
 
-bool Reader::Read() {
+bool ParameterReader::Read() {
   if (!ReadModes() || !ReadLevels()) return false;
   switch (words().cycle) {
     case 83:
@@ -92,7 +92,7 @@ bool Reader::Read() {
 }
 
 /// The tail of the newer forms. Digits that are not known to mean nothing else are not guessed at.
-bool Reader::ReadModes() {
+bool ParameterReader::ReadModes() {
   if (!CheckAllZero(a_, "_GMODE", unsupported_)) return false;
   if (!CheckDisplayMode(a_, state_.plane, unsupported_)) return false;
   const long axis = a_.Whole("_AXN");
@@ -113,7 +113,7 @@ bool Reader::ReadModes() {
   return known ? true : Unsupported("_AMODE");
 }
 
-bool Reader::ReadLevels() {
+bool ParameterReader::ReadLevels() {
   SinumerikDrilling& w = words();
   w.rtp = a_.Length("RTP");
   w.rfp = a_.Length("RFP");
@@ -128,7 +128,7 @@ bool Reader::ReadLevels() {
   return true;
 }
 
-bool Reader::ReadDeepHole() {
+bool ParameterReader::ReadDeepHole() {
   SinumerikDrilling& w = words();
   const long way = a_.Whole("VARI");
   if (way != 0 && way != 1) return Unsupported("VARI");
@@ -157,7 +157,7 @@ bool Reader::ReadDeepHole() {
 
 /// By PIT in the unit of _PITA (0: as programmed), or by the size of a metric thread. Negative:
 /// left-hand.
-bool Reader::TakePitch(double* pitch) {
+bool ParameterReader::TakePitch(double* pitch) {
   const double value = a_.Number("PIT"), size = a_.Number("MPIT");
   switch (a_.Whole("_PITA")) {
     case 0:
@@ -181,7 +181,7 @@ bool Reader::TakePitch(double* pitch) {
   return *pitch != 0.0 ? true : Alarm(61001, "PIT and MPIT are no pitch of a thread");
 }
 
-bool Reader::ReadThread() {
+bool ParameterReader::ReadThread() {
   SinumerikDrilling& w = words();
   double pitch = 0.0;
   if (!TakePitch(&pitch)) return false;
@@ -201,7 +201,7 @@ bool Reader::ReadThread() {
 }
 
 /// ENC: 0 and 20 with an encoder, 1 without by F, 11 without by the pitch.
-bool Reader::ReadCompensatedThread() {
+bool ParameterReader::ReadCompensatedThread() {
   SinumerikDrilling& w = words();
   const long encoder = a_.Whole("ENC"), reverse = a_.Whole("SDR"), after = a_.Whole("SDAC");
   if (encoder != 0 && encoder != 20 && encoder != 1 && encoder != 11) return Unsupported("ENC");
@@ -221,7 +221,7 @@ bool Reader::ReadCompensatedThread() {
   return true;
 }
 
-bool Reader::ReadStop() {
+bool ParameterReader::ReadStop() {
   const long turning = a_.Whole("SDIR");
   if (turning != 3 && turning != 4) {
     return Alarm(61102, "SDIR does not say how the spindle turns");
@@ -260,7 +260,7 @@ std::optional<SinumerikDrillCall> ReadDrilling(const SinumerikCycleArguments& ar
                                                const SinumerikCycleState& state,
                                                SinumerikCycleAlarm* alarm,
                                                std::string* unsupported) {
-  Reader reader(arguments, state, alarm, unsupported);
+  ParameterReader reader(arguments, state, alarm, unsupported);
   if (!reader.Read()) return std::nullopt;
   return reader.call();
 }

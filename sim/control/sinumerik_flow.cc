@@ -4,18 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/control/limits.h"
 #include "sim/control/sinumerik_flow_state.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::control {
-namespace {
-
-/// Findings of one text after its first syntax error, and how far they are looked for.
-constexpr int kMaxSyntaxFindings = 20;
-constexpr int kMaxSyntaxLines = 200'000;
-
-}  // namespace
-
 SinumerikItem* SinumerikStep::Find(char letter) {
   for (SinumerikItem& item : items) {
     const bool hit = item.kind == SinumerikItemKind::kWord && item.letter == letter;

@@ -11,7 +11,6 @@
 namespace ncsim::control {
 namespace {
 
-constexpr std::string_view kLetters = "XYZABC";
 // Relative: columns that are square to each other but for rounding.
 constexpr double kSquare = 1e-12;
 

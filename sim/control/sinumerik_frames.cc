@@ -9,14 +9,11 @@
 #include "sim/base/text.h"
 #include "sim/base/units.h"
 #include "sim/control/arc.h"
+#include "sim/control/limits.h"
 #include "sim/control/sinumerik_interpreter.h"
 
 namespace ncsim::control {
 namespace {
-
-// Honest programs have tens; a loop that makes more must not eat memory.
-constexpr int kMaxPartFrames = 100'000;
-constexpr std::string_view kLetters = "XYZABC";
 
 bool IsIdentity(const Eigen::Matrix3d& linear) {
   return (linear - Eigen::Matrix3d::Identity()).isZero(0.0);

@@ -256,7 +256,7 @@ void SinumerikInterpreter::ApplyCode(SinumerikItem* item) {
 int SinumerikInterpreter::OffsetIndex(std::string_view name) {
   int number = 0;
   for (const char c : name) {
-    if (nc::IsDigit(c)) number = 10 * number + (c - '0');
+    if (IsDigit(c)) number = 10 * number + (c - '0');
   }
   if (number >= 54 && number <= 57) return number - 53;
   return number >= 500 && number < 500 + kNumSettableFrames ? number - 500 : -1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/base/text.h"
 #include "sim/nc/sinumerik_commands.h"
 #include "sim/nc/sinumerik_token.h"
 
@@ -20,8 +21,8 @@ constexpr std::array<std::string_view, 21> kStructures = {
 std::string_view WordAt(std::string_view line, std::size_t at) {
   if (!nc::IsNameStart(line[at])) return {};
   std::size_t end = at + 1;
-  const bool address = end < line.size() && nc::IsDigit(line[end]);
-  const auto goes_on = [&](char c) { return address ? nc::IsDigit(c) : nc::IsNamePart(c); };
+  const bool address = end < line.size() && IsDigit(line[end]);
+  const auto goes_on = [&](char c) { return address ? IsDigit(c) : nc::IsNamePart(c); };
   while (end < line.size() && goes_on(line[end])) ++end;
   return line.substr(at, end - at);
 }
@@ -34,8 +35,8 @@ bool IsStructure(std::string_view word) {
 /// Names that the control lets a macro have: its own words are no such, but M, H and L functions.
 bool MayBeMacro(std::string_view name) {
   if (name.size() < 2) return false;
-  const char letter = nc::Upper(name[0]);
-  if (nc::IsDigit(name[1])) return letter == 'M' || letter == 'H' || letter == 'L';
+  const char letter = Upper(name[0]);
+  if (IsDigit(name[1])) return letter == 'M' || letter == 'H' || letter == 'L';
   return nc::FindSinumerikCommand(name) == nullptr;
 }
 

@@ -15,13 +15,11 @@ namespace {
 
 using Modifier = nc::SinumerikModifier;
 
-constexpr unsigned kLinear = 1U << kX | 1U << kY | 1U << kZ;
 constexpr double kTurn = 360.0;
 // deg: a modulo axis this near to the end of a turn stands at its end.
 constexpr double kSameAngle = 1e-7;
 // Beyond this TURN= is a mistake (NC programming 12/2019, p. 205).
 constexpr double kMaxTurns = 999.0;
-constexpr std::string_view kLetters = "XYZABC";
 
 }  // namespace
 
@@ -165,9 +163,9 @@ void SinumerikInterpreter::ExecuteMotion() {
   const bool has_arc_words =
       is_arc && (arc.centre[0] || arc.centre[1] || arc.centre[2] || arc.angle);
   if (go && (named != 0 || has_arc_words)) {
-    arc.end_named = (named & kLinear) != 0;
+    arc.end_named = (named & kLinearAxes) != 0;
     command_.end = end;
-    if ((named & kLinear) != 0 || is_arc) BeforeLinearMotion();
+    if ((named & kLinearAxes) != 0 || is_arc) BeforeLinearMotion();
     if (!log_.stopped() && (motion_ == MotionMode::kRapid || CheckFeed())) {
       is_arc ? MoveOnArc(arc) : Move(end, named);
     }
@@ -507,7 +505,7 @@ void SinumerikInterpreter::Push() {
   position_ = command_.end;
   moved_ = true;
   const bool led = traori_ && command_.orientation == Orientation::kVector;
-  if (!led || (command_.named & ~kLinear) == 0) return;
+  if (!led || (command_.named & ~kLinearAxes) == 0) return;
   // Where the great circle has led the rotary axes to.
   const AxisValues machine = parts_.to_motion->position();
   for (std::size_t i = kA; i < kNumAxes; ++i) position_[i] = machine[i] - frame_->offset[i];

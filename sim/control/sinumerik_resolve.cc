@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/base/text.h"
+#include "sim/control/limits.h"
 #include "sim/control/sinumerik_flow_state.h"
 #include "sim/nc/sinumerik_token.h"
 
@@ -16,7 +17,6 @@ using nc::SinumerikCommandKind;
 using nc::SinumerikFault;
 using nc::SinumerikValue;
 
-constexpr double kMaxWord = 1e9;
 constexpr int kMaxMWords = 5;
 
 bool Fault(SinumerikFault* fault, std::string message) {
@@ -38,7 +38,7 @@ bool IsMessage(double number) {
 bool SinumerikFlow::State::ReadName(std::string_view name, const std::vector<Value>& indices,
                                     Value* value, SinumerikFault* fault) {
   last_read = nullptr;
-  const bool indexed_r = name.size() == 1 && nc::Upper(name[0]) == 'R' && !indices.empty();
+  const bool indexed_r = name.size() == 1 && Upper(name[0]) == 'R' && !indices.empty();
   if (indexed_r) return ReadParameter(indices, value, fault);
   if (const long number = RParameterNumber(name); number >= 0 && indices.empty()) {
     return ReadParameter({Value::Int(static_cast<double>(number))}, value, fault);

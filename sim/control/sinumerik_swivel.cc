@@ -16,7 +16,7 @@ namespace {
 enum Mode { kAxisByAxis = 0, kSolidAngle = 1, kProjection = 2, kDirect = 3 };
 
 // rad: an angle this little below a whole turn is one.
-constexpr double kSameAngle = 1e-9;
+constexpr double kSameSwivelAngle = 1e-9;
 
 long ModeOf(const SinumerikCycleArguments& arguments) { return arguments.Whole("_MODE") >> 6; }
 
@@ -86,7 +86,8 @@ const kinematics::RotarySolution& ChooseSwivel(
     bool endless) {
   const auto angle = [&](const kinematics::RotarySolution& solution) {
     const double value = solution.angles.at(static_cast<std::size_t>(reference));
-    return endless ? value - 2.0 * kPi * std::floor((value + kSameAngle) / (2.0 * kPi)) : value;
+    return endless ? value - 2.0 * kPi * std::floor((value + kSameSwivelAngle) / (2.0 * kPi))
+                   : value;
   };
   const kinematics::RotarySolution* chosen = &solutions.front();
   for (const kinematics::RotarySolution& solution : solutions) {

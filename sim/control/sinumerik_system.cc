@@ -8,7 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "sim/base/text.h"
 #include "sim/base/units.h"
+#include "sim/control/limits.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::control {
@@ -17,10 +19,9 @@ namespace {
 using nc::SinumerikValue;
 using Access = SinumerikSystem::Access;
 
-constexpr std::string_view kLetters = "XYZABC";
 constexpr std::string_view kEdgeData = "$TC_DP";
 constexpr int kMaxEdgeParameter = 35;
-constexpr int kMaxTool = 32000, kMaxEdge = 12;
+constexpr int kMaxTool = 32000;
 
 /// The n of $TC_DPn.
 std::optional<int> EdgeParameter(std::string_view name) {
@@ -41,7 +42,7 @@ bool IsOfToolManagement(std::string_view name) {
         "$TC_MTP", "$TC_MTPC", "$TC_MTPCS"}) {
     if (!name.starts_with(family) || name.size() == family.size()) continue;
     const std::string_view number = name.substr(family.size());
-    if (std::all_of(number.begin(), number.end(), nc::IsDigit)) return true;
+    if (std::all_of(number.begin(), number.end(), IsDigit)) return true;
   }
   return name == "$TC_DPCE" || name == "$TC_DPH" || name == "$TC_MLSR" || name == "$TC_MPTH";
 }

@@ -5,6 +5,7 @@
 
 #include "sim/base/text.h"
 #include "sim/control/arc.h"
+#include "sim/control/limits.h"
 #include "sim/control/sinumerik_interpreter.h"
 #include "sim/control/tool_change.h"
 #include "sim/nc/sinumerik_token.h"
@@ -12,10 +13,7 @@
 namespace ncsim::control {
 namespace {
 
-constexpr double kMaxToolWord = 32000.0;
-constexpr int kMaxEdge = 12;  // MD18105, MD18106: standard values
-// mm: a length that differs more from the metal is said.
-constexpr double kLengthTolerance = 0.5;
+constexpr double kMaxToolNumber = 32000.0;
 
 }  // namespace
 
@@ -36,7 +34,7 @@ void SinumerikInterpreter::ApplyToolWord(SinumerikItem* item) {
     }
     next_tool_ = found->number;
   } else {
-    if (!(item->value >= 0.0 && item->value <= kMaxToolWord) ||
+    if (!(item->value >= 0.0 && item->value <= kMaxToolNumber) ||
         item->value != std::floor(item->value)) {
       Alarm(Where(*item), 17190, "T" + Short(item->value) + " is no tool number");
       return;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/text.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::control {
@@ -83,10 +84,10 @@ std::string SinumerikVariable::OffsetOf(const std::vector<SinumerikValue>& indic
 
 long RParameterNumber(std::string_view name) {
   if (!name.empty() && name[0] == '$') name.remove_prefix(1);
-  if (name.size() < 2 || name.size() > 7 || nc::Upper(name[0]) != 'R') return -1;
+  if (name.size() < 2 || name.size() > 7 || Upper(name[0]) != 'R') return -1;
   long number = 0;
   for (const char c : name.substr(1)) {
-    if (!nc::IsDigit(c)) return -1;
+    if (!IsDigit(c)) return -1;
     number = number * 10 + (c - '0');
   }
   return number;
@@ -95,7 +96,7 @@ long RParameterNumber(std::string_view name) {
 bool IsGlobalRParameter(std::string_view name) {
   if (!name.empty() && name[0] == '$') name.remove_prefix(1);
   return name.size() > 2 && nc::SameName(name.substr(0, 2), "RG") &&
-         std::all_of(name.begin() + 2, name.end(), nc::IsDigit);
+         std::all_of(name.begin() + 2, name.end(), IsDigit);
 }
 
 bool IsFrameComponent(std::string_view name) {

@@ -29,8 +29,6 @@ constexpr double kNoSweep = 1e-9;
 // A normal that is an axis but for rounding: that axis runs along the helix.
 constexpr double kAlongAxis = 1e-12;
 
-Eigen::Vector3d Linear(const AxisValues& values) { return {values[kX], values[kY], values[kZ]}; }
-
 struct Circle {
   Eigen::Vector3d centre, e1, e2, pitch, end_error;
   double radius = 0.0, sweep = 0.0;

@@ -10,7 +10,6 @@ namespace ncsim::control {
 
 ToolChangeWay::ToolChangeWay(const machine::ControlData& control)
     : nominal_(control.tool_change_nominal) {
-  constexpr std::string_view kLetters = "XYZABC";
   for (const auto& [letter, value] : control.tool_change_pose) {
     const std::size_t axis = kLetters.find(letter);
     if (axis >= kNumAxes) continue;

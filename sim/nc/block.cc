@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/base/text.h"
 #include "sim/nc/block_parser.h"
 #include "sim/nc/expression_parser.h"
 #include "sim/nc/program.h"

@@ -22,12 +22,6 @@ std::string_view Trim(std::string_view text) {
   return text;
 }
 
-std::string ToUpper(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = Upper(c);
-  return upper;
-}
-
 std::vector<std::string_view> Split(std::string_view text) {
   std::vector<std::string_view> parts;
   while (true) {
@@ -105,7 +99,7 @@ std::optional<HeaderTool> ReadAutodeskLine(std::string_view comment) {
   for (const std::string_view part : parts) {
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos) continue;
-    const std::string key = ToUpper(part.substr(0, equals));
+    const std::string key = Upper(part.substr(0, equals));
     const std::optional<double> value = ToNumber(part.substr(equals + 1));
     if (!value) continue;
     if (key == "D") {
@@ -134,7 +128,7 @@ bool MovesAnAxis(const Block& block) {
 class HeaderReader {
  public:
   void Read(std::string_view comment, int line) {
-    const std::string upper = ToUpper(comment);
+    const std::string upper = Upper(comment);
     if (upper.find("END OF TOOL TABLE") != std::string::npos) {
       in_table_ = false;
     } else if (upper.find("TOOL TABLE") != std::string::npos) {

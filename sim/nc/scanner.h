@@ -11,14 +11,12 @@
 #include <string_view>
 #include <system_error>
 
+#include "sim/base/text.h"
+
 namespace ncsim::nc {
 
-constexpr bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 constexpr bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
-/// ASCII only.
-constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-constexpr bool IsLetter(char c) { return Upper(c) >= 'A' && Upper(c) <= 'Z'; }
 
 /// Larger numbers are no value of any axis, offset or variable, and are refused, so that what reads
 /// them may count on a number that fits an int.

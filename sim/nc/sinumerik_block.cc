@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "sim/base/text.h"
 #include "sim/nc/sinumerik_block_parser.h"
 #include "sim/nc/sinumerik_token.h"
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "sim/base/text.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::nc {
@@ -16,7 +17,7 @@ constexpr std::size_t kHighestG = 999;
 using ByName = std::map<std::string, const SinumerikCommand*, std::less<>>;
 
 /// The letters of "G505", and its number.
-std::pair<std::string, int> Split(std::string_view name) {
+std::pair<std::string, int> SplitName(std::string_view name) {
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   int number = -1;
   for (std::size_t i = digits; i < name.size(); ++i) {
@@ -30,7 +31,7 @@ ByName MakeNames() {
   for (const std::span<const SinumerikCommand> rows :
        {Sinumerik840dGCodes(), Sinumerik840dNames()}) {
     for (const SinumerikCommand& row : rows) {
-      const auto [letters, first] = Split(row.name);
+      const auto [letters, first] = SplitName(row.name);
       names.emplace(std::string(row.name), &row);
       for (int i = first + 1; i <= row.last; ++i) names.emplace(letters + std::to_string(i), &row);
     }

@@ -9,7 +9,7 @@
 namespace ncsim::nc {
 namespace {
 
-using Kind = SinumerikPartKind;
+using PartKind = SinumerikPartKind;
 
 constexpr std::size_t kMaxSizes = 3;
 
@@ -126,7 +126,7 @@ bool SinumerikBlockParser::ParseDefinedName() {
     return false;
   }
   scanner_.Advance(name.size());
-  SinumerikPart part = Begin(Kind::kDefinedName, name, column);
+  SinumerikPart part = Begin(PartKind::kDefinedName, name, column);
   if (!ParseSizes(&part)) return false;
   scanner_.SkipSpaces();
   if (scanner_.Peek() == '=') {
@@ -184,7 +184,7 @@ void SinumerikBlockParser::ParseProcedure(SinumerikPart part) {
     if (!Contains(kAttributes, name)) {
       return Fail(scanner_.column(), 12080, "this is no attribute of PROC");
     }
-    const SinumerikPart attribute = Begin(Kind::kAttribute, name, scanner_.column());
+    const SinumerikPart attribute = Begin(PartKind::kAttribute, name, scanner_.column());
     scanner_.Advance(name.size());
     if (Add(attribute) == nullptr) return;
   }
@@ -226,7 +226,7 @@ bool SinumerikBlockParser::ParseParameters(bool named) {
 
 bool SinumerikBlockParser::ParseParameter(bool named) {
   scanner_.SkipSpaces();
-  SinumerikPart part = Begin(Kind::kParameter, {}, scanner_.column());
+  SinumerikPart part = Begin(PartKind::kParameter, {}, scanner_.column());
   part.by_reference = TakeName("VAR");
   if (!ParseType(&part)) return false;
   scanner_.SkipSpaces();
@@ -267,7 +267,7 @@ void SinumerikBlockParser::ParseMacro(SinumerikPart part) {
   if (!TakeName("AS")) return Fail(scanner_.column(), 12080, "AS is missing");
   scanner_.SkipSpaces();
   if (AtBlockEnd()) return Fail(part.column, 12080, "the text of the macro is missing");
-  SinumerikPart macro = Begin(Kind::kDefinedName, name, part.column);
+  SinumerikPart macro = Begin(PartKind::kDefinedName, name, part.column);
   if (Add(part) == nullptr || Add(macro) == nullptr) return;
   scanner_.SkipToLineEnd();
 }

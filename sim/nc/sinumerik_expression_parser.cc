@@ -10,8 +10,8 @@
 namespace ncsim::nc {
 namespace {
 
-constexpr int kMaxDepth = 40;
-constexpr std::size_t kMaxCode = 4096;
+constexpr int kDeepest = 40;
+constexpr std::size_t kMaxOperations = 4096;
 
 /// NC programming 12/2019, p. 444, from the lowest: comparison binds weakest.
 enum Priority {
@@ -70,7 +70,8 @@ bool SinumerikExpressionParser::Fail(int column, int alarm, std::string message)
 }
 
 bool SinumerikExpressionParser::Emit(const SinumerikCode& code) {
-  if (block_.code.size() >= kMaxCode) return Fail(code.column, 12540, "the block is too complex");
+  if (block_.code.size() >= kMaxOperations)
+    return Fail(code.column, 12540, "the block is too complex");
   block_.code.push_back(code);
   return true;
 }
@@ -159,7 +160,7 @@ SinumerikExpressionParser::Operator SinumerikExpressionParser::PeekOperator() co
 
 /// Operators of at least the priority `lowest`, from left to right.
 bool SinumerikExpressionParser::ParseBinary(int lowest, bool sign_allowed) {
-  if (++depth_ > kMaxDepth) {
+  if (++depth_ > kDeepest) {
     return Fail(scanner_.column(), 12540, "the expression is nested too deeply");
   }
   scanner_.SkipSpaces();
@@ -223,7 +224,7 @@ bool SinumerikExpressionParser::ParseUnary(bool sign_allowed) {
   const std::string_view name = PeekName(scanner_);
   const bool bits = SameName(name, "B_NOT");
   if (!bits && !SameName(name, "NOT")) return ParseOperand();
-  if (++depth_ > kMaxDepth) return Fail(column, 12540, "the expression is nested too deeply");
+  if (++depth_ > kDeepest) return Fail(column, 12540, "the expression is nested too deeply");
   scanner_.Advance(name.size());
   SinumerikCode code;
   code.op = bits ? SinumerikOp::kBitNot : SinumerikOp::kNot;
@@ -320,7 +321,7 @@ bool SinumerikExpressionParser::ParseNamed(std::string_view name, int column) {
 /// Arguments or indices of an operand: their code stands before its own.
 bool SinumerikExpressionParser::ParseInner(char close, std::uint16_t* count) {
   const int opening = scanner_.column() - 1;
-  if (++depth_ > kMaxDepth) return Fail(opening, 12540, "the expression is nested too deeply");
+  if (++depth_ > kDeepest) return Fail(opening, 12540, "the expression is nested too deeply");
   scanner_.SkipSpaces();
   *count = 0;
   if (scanner_.Peek() == close) {

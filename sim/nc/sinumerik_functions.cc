@@ -256,7 +256,7 @@ std::string CMirror(const Arguments& arguments, SinumerikValue* result) {
 
 constexpr std::size_t kMaxFrameArguments = 20;
 
-constexpr std::array<SinumerikFunction, 40> kFunctions = {{
+constexpr std::array<SinumerikFunction, 40> kSinumerikFunctions = {{
     {"ABS", 1, 1, Abs},
     {"ACOS", 1, 1, OfReal<Acos>},
     {"ASIN", 1, 1, OfReal<Asin>},
@@ -302,7 +302,7 @@ constexpr std::array<SinumerikFunction, 40> kFunctions = {{
 }  // namespace
 
 const SinumerikFunction* FindSinumerikFunction(std::string_view name) {
-  for (const SinumerikFunction& function : kFunctions) {
+  for (const SinumerikFunction& function : kSinumerikFunctions) {
     if (SameName(name, function.name)) return &function;
   }
   return nullptr;

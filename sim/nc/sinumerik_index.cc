@@ -6,12 +6,13 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/base/text.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::nc {
 namespace {
 
-using Kind = SinumerikPartKind;
+using PartKind = SinumerikPartKind;
 
 /// NC programming 12/2019, "Control structures".
 constexpr std::size_t kMaxNesting = 16;
@@ -21,15 +22,15 @@ constexpr std::array<std::string_view, 12> kStructures = {
     "ENDWHILE", "LOOP", "ENDLOOP", "REPEAT", "UNTIL",  "ENDLABEL"};
 
 /// What a line begins with, as far as finding it goes; ParseSinumerikBlock() judges it.
-struct LineHead {
+struct BlockHead {
   bool header = false;
   long number = -1;
   std::string_view label;
   bool structure = false;  ///< A word of a control structure stands first.
 };
 
-LineHead ReadHead(Scanner* scanner) {
-  LineHead head;
+BlockHead ReadBlockHead(Scanner* scanner) {
+  BlockHead head;
   scanner->SkipSpaces();
   if (scanner->Peek() == '%') {
     head.header = true;
@@ -74,29 +75,29 @@ SinumerikSection SectionOf(std::string_view header) {
 }
 
 /// The kind that ends what `kind` begins.
-Kind EndOf(Kind kind) {
+PartKind EndOf(PartKind kind) {
   switch (kind) {
-    case Kind::kIf:
-      return Kind::kEndIf;
-    case Kind::kFor:
-      return Kind::kEndFor;
-    case Kind::kWhile:
-      return Kind::kEndWhile;
-    case Kind::kLoop:
-      return Kind::kEndLoop;
+    case PartKind::kIf:
+      return PartKind::kEndIf;
+    case PartKind::kFor:
+      return PartKind::kEndFor;
+    case PartKind::kWhile:
+      return PartKind::kEndWhile;
+    case PartKind::kLoop:
+      return PartKind::kEndLoop;
     default:
-      return Kind::kUntil;
+      return PartKind::kUntil;
   }
 }
 
-bool Begins(Kind kind) {
-  return kind == Kind::kIf || kind == Kind::kFor || kind == Kind::kWhile || kind == Kind::kLoop ||
-         kind == Kind::kRepeat;
+bool Begins(PartKind kind) {
+  return kind == PartKind::kIf || kind == PartKind::kFor || kind == PartKind::kWhile ||
+         kind == PartKind::kLoop || kind == PartKind::kRepeat;
 }
 
-bool Ends(Kind kind) {
-  return kind == Kind::kEndIf || kind == Kind::kEndFor || kind == Kind::kEndWhile ||
-         kind == Kind::kEndLoop || kind == Kind::kUntil;
+bool Ends(PartKind kind) {
+  return kind == PartKind::kEndIf || kind == PartKind::kEndFor || kind == PartKind::kEndWhile ||
+         kind == PartKind::kEndLoop || kind == PartKind::kUntil;
 }
 
 SinumerikPartner Failed(int alarm, std::string text) {
@@ -134,7 +135,7 @@ SinumerikIndex::SinumerikIndex(const Program& program) {
 
 void SinumerikIndex::AddLine(const Program& program, TextPosition at) {
   Scanner scanner(program.text(), at.offset);
-  const LineHead head = ReadHead(&scanner);
+  const BlockHead head = ReadBlockHead(&scanner);
   if (head.header) {
     ParseSinumerikBlock(program, at.offset, at.line, &block_);
     // What stands before the first header is no program, unless there is something in it.
@@ -151,19 +152,19 @@ void SinumerikIndex::AddLine(const Program& program, TextPosition at) {
   if (!head.structure) return;
   ParseSinumerikBlock(program, at.offset, at.line, &block_);
   if (block_.parts.empty()) return;
-  const Kind kind = block_.parts.front().kind;
-  if (kind == Kind::kEndLabel) labels_["ENDLABEL"].push_back({0, at.line, at.offset});
+  const PartKind kind = block_.parts.front().kind;
+  if (kind == PartKind::kEndLabel) labels_["ENDLABEL"].push_back({0, at.line, at.offset});
   AddStructure(kind, at);
 }
 
-void SinumerikIndex::AddStructure(Kind kind, TextPosition at) {
+void SinumerikIndex::AddStructure(PartKind kind, TextPosition at) {
   if (Begins(kind)) {
     if (open_.size() >= kMaxNesting) {
       partners_[at.offset] = Failed(12641, "control structures are nested deeper than 16 levels");
     }
     open_.push_back({kind, at, std::nullopt});
-  } else if (kind == Kind::kElse) {
-    if (open_.empty() || open_.back().kind != Kind::kIf || open_.back().else_block) {
+  } else if (kind == PartKind::kElse) {
+    if (open_.empty() || open_.back().kind != PartKind::kIf || open_.back().else_block) {
       partners_[at.offset] = Failed(12640, "ELSE without its IF");
       return;
     }

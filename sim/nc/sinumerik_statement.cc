@@ -5,62 +5,63 @@
 #include <array>
 #include <optional>
 
+#include "sim/base/text.h"
 #include "sim/nc/sinumerik_block_parser.h"
 #include "sim/nc/sinumerik_token.h"
 
 namespace ncsim::nc {
 namespace {
 
-using Kind = SinumerikPartKind;
+using PartKind = SinumerikPartKind;
 
 struct Keyword {
   std::string_view name;
-  Kind kind;
+  PartKind kind;
 };
 /// By name.
 constexpr std::array<Keyword, 42> kKeywords = {{
-    {"CALL", Kind::kCallName},
-    {"CASE", Kind::kCase},
-    {"CTABDEF", Kind::kUnsimulated},
-    {"DEF", Kind::kDefine},
-    {"DEFINE", Kind::kUnsimulated},
-    {"DO", Kind::kSynchronous},
-    {"ELSE", Kind::kElse},
-    {"ENDFOR", Kind::kEndFor},
-    {"ENDIF", Kind::kEndIf},
-    {"ENDLABEL", Kind::kEndLabel},
-    {"ENDLOOP", Kind::kEndLoop},
-    {"ENDPROC", Kind::kReturn},
-    {"ENDWHILE", Kind::kEndWhile},
-    {"EVERY", Kind::kSynchronous},
-    {"EXTCALL", Kind::kCallName},
-    {"EXTERN", Kind::kExternal},
-    {"FOR", Kind::kFor},
-    {"FROM", Kind::kSynchronous},
-    {"GOTO", Kind::kGoto},
-    {"GOTOB", Kind::kGoto},
-    {"GOTOC", Kind::kGoto},
-    {"GOTOF", Kind::kGoto},
-    {"GOTOS", Kind::kGoto},
-    {"ID", Kind::kSynchronous},
-    {"IDS", Kind::kSynchronous},
-    {"IF", Kind::kIf},
-    {"ISOCALL", Kind::kUnsimulated},
-    {"LOOP", Kind::kLoop},
-    {"MCALL", Kind::kModalCall},
-    {"PCALL", Kind::kCallPath},
-    {"PROC", Kind::kProcedure},
-    {"REDEF", Kind::kUnsimulated},
-    {"REPEAT", Kind::kRepeat},
-    {"REPEATB", Kind::kRepeatBlock},
-    {"RET", Kind::kReturn},
-    {"RETB", Kind::kReturn},
-    {"SETINT", Kind::kUnsimulated},
-    {"TO", Kind::kElse},
-    {"UNTIL", Kind::kUntil},
-    {"WHEN", Kind::kSynchronous},
-    {"WHENEVER", Kind::kSynchronous},
-    {"WHILE", Kind::kWhile},
+    {"CALL", PartKind::kCallName},
+    {"CASE", PartKind::kCase},
+    {"CTABDEF", PartKind::kUnsimulated},
+    {"DEF", PartKind::kDefine},
+    {"DEFINE", PartKind::kUnsimulated},
+    {"DO", PartKind::kSynchronous},
+    {"ELSE", PartKind::kElse},
+    {"ENDFOR", PartKind::kEndFor},
+    {"ENDIF", PartKind::kEndIf},
+    {"ENDLABEL", PartKind::kEndLabel},
+    {"ENDLOOP", PartKind::kEndLoop},
+    {"ENDPROC", PartKind::kReturn},
+    {"ENDWHILE", PartKind::kEndWhile},
+    {"EVERY", PartKind::kSynchronous},
+    {"EXTCALL", PartKind::kCallName},
+    {"EXTERN", PartKind::kExternal},
+    {"FOR", PartKind::kFor},
+    {"FROM", PartKind::kSynchronous},
+    {"GOTO", PartKind::kGoto},
+    {"GOTOB", PartKind::kGoto},
+    {"GOTOC", PartKind::kGoto},
+    {"GOTOF", PartKind::kGoto},
+    {"GOTOS", PartKind::kGoto},
+    {"ID", PartKind::kSynchronous},
+    {"IDS", PartKind::kSynchronous},
+    {"IF", PartKind::kIf},
+    {"ISOCALL", PartKind::kUnsimulated},
+    {"LOOP", PartKind::kLoop},
+    {"MCALL", PartKind::kModalCall},
+    {"PCALL", PartKind::kCallPath},
+    {"PROC", PartKind::kProcedure},
+    {"REDEF", PartKind::kUnsimulated},
+    {"REPEAT", PartKind::kRepeat},
+    {"REPEATB", PartKind::kRepeatBlock},
+    {"RET", PartKind::kReturn},
+    {"RETB", PartKind::kReturn},
+    {"SETINT", PartKind::kUnsimulated},
+    {"TO", PartKind::kElse},
+    {"UNTIL", PartKind::kUntil},
+    {"WHEN", PartKind::kSynchronous},
+    {"WHENEVER", PartKind::kSynchronous},
+    {"WHILE", PartKind::kWhile},
 }};
 
 const Keyword* FindKeyword(std::string_view name) {
@@ -81,19 +82,19 @@ std::optional<SinumerikJump> JumpOf(std::string_view name) {
 }
 
 /// "Blocks with control elements" may carry no label and may not be skipped.
-bool IsStructure(Kind kind) {
+bool IsStructure(PartKind kind) {
   switch (kind) {
-    case Kind::kIf:
-    case Kind::kElse:
-    case Kind::kEndIf:
-    case Kind::kFor:
-    case Kind::kEndFor:
-    case Kind::kWhile:
-    case Kind::kEndWhile:
-    case Kind::kLoop:
-    case Kind::kEndLoop:
-    case Kind::kRepeat:
-    case Kind::kUntil:
+    case PartKind::kIf:
+    case PartKind::kElse:
+    case PartKind::kEndIf:
+    case PartKind::kFor:
+    case PartKind::kEndFor:
+    case PartKind::kWhile:
+    case PartKind::kEndWhile:
+    case PartKind::kLoop:
+    case PartKind::kEndLoop:
+    case PartKind::kRepeat:
+    case PartKind::kUntil:
       return true;
     default:
       return false;
@@ -112,47 +113,47 @@ bool SinumerikBlockParser::ParseKeyword(std::string_view name) {
   return true;
 }
 
-void SinumerikBlockParser::ParseStatement(Kind kind, std::string_view name) {
+void SinumerikBlockParser::ParseStatement(PartKind kind, std::string_view name) {
   SinumerikPart part = Begin(kind, name, scanner_.column());
   scanner_.Advance(name.size());
   switch (kind) {
-    case Kind::kIf:
+    case PartKind::kIf:
       return ParseIf(part);
-    case Kind::kElse:
+    case PartKind::kElse:
       if (!SameName(name, "ELSE")) return Fail(part.column, 12080, UpperName(name) + " alone");
       if (!synchronous_) return AddAlone(part);
       if (has_else_) return Fail(part.column, 12080, "a second ELSE");
       has_else_ = true;
       return;
-    case Kind::kFor:
+    case PartKind::kFor:
       return ParseFor(part);
-    case Kind::kWhile:
-    case Kind::kUntil:
+    case PartKind::kWhile:
+    case PartKind::kUntil:
       return ParseCondition(part);
-    case Kind::kGoto:
+    case PartKind::kGoto:
       return ParseGoto(part);
-    case Kind::kCase:
+    case PartKind::kCase:
       return ParseCase(part);
-    case Kind::kRepeat:
-    case Kind::kRepeatBlock:
+    case PartKind::kRepeat:
+    case PartKind::kRepeatBlock:
       return ParseRepeat(part);
-    case Kind::kDefine:
+    case PartKind::kDefine:
       return ParseDefine(part);
-    case Kind::kProcedure:
+    case PartKind::kProcedure:
       return ParseProcedure(part);
-    case Kind::kExternal:
+    case PartKind::kExternal:
       return ParseExternal(part);
-    case Kind::kCallName:
+    case PartKind::kCallName:
       return ParseCallStatement(part);
-    case Kind::kCallPath:
+    case PartKind::kCallPath:
       return ParsePathCall(part);
-    case Kind::kModalCall:
+    case PartKind::kModalCall:
       return ParseModalCall(part);
-    case Kind::kReturn:
+    case PartKind::kReturn:
       return ParseReturn(part);
-    case Kind::kSynchronous:
+    case PartKind::kSynchronous:
       return ParseSynchronous(part);
-    case Kind::kUnsimulated:
+    case PartKind::kUnsimulated:
       if (SameName(name, "DEFINE")) return ParseMacro(part);
       if (SameName(name, "REDEF")) return ParseRedefine(part);
       Add(part);
@@ -186,8 +187,8 @@ void SinumerikBlockParser::ParseIf(SinumerikPart part) {
   scanner_.SkipSpaces();
   const std::string_view next = PeekName(scanner_);
   if (!JumpOf(next)) return AddAlone(part);
-  part.kind = Kind::kIfGoto;
-  if (Add(part) != nullptr) ParseStatement(Kind::kGoto, next);
+  part.kind = PartKind::kIfGoto;
+  if (Add(part) != nullptr) ParseStatement(PartKind::kGoto, next);
 }
 
 void SinumerikBlockParser::ParseFor(SinumerikPart part) {
@@ -272,9 +273,9 @@ void SinumerikBlockParser::ParseCase(SinumerikPart part) {
   while (true) {
     scanner_.SkipSpaces();
     if (AtBlockEnd()) break;
-    SinumerikPart branch = Begin(Kind::kCaseBranch, {}, scanner_.column());
+    SinumerikPart branch = Begin(PartKind::kCaseBranch, {}, scanner_.column());
     const bool is_default = TakeName("DEFAULT");
-    if (is_default) branch.kind = Kind::kCaseDefault;
+    if (is_default) branch.kind = PartKind::kCaseDefault;
     if (!is_default && !expressions_.ParseConstant(&branch.expression)) {
       return scanner_.SkipToLineEnd();
     }
@@ -303,9 +304,9 @@ bool SinumerikBlockParser::ParseBranch(SinumerikPart* branch) {
 /// is marked by labels.
 void SinumerikBlockParser::ParseRepeat(SinumerikPart part) {
   scanner_.SkipSpaces();
-  if (AtBlockEnd() && part.kind == Kind::kRepeat) return AddAlone(part);
-  const bool section = part.kind == Kind::kRepeat;
-  if (section) part.kind = Kind::kRepeatSection;
+  if (AtBlockEnd() && part.kind == PartKind::kRepeat) return AddAlone(part);
+  const bool section = part.kind == PartKind::kRepeat;
+  if (section) part.kind = PartKind::kRepeatSection;
   SinumerikTarget first;
   SinumerikTarget second;
   if (!ParseTarget(&first)) return;
@@ -350,7 +351,7 @@ void SinumerikBlockParser::ParseCallStatement(SinumerikPart part) {
     }
   }
   if (TakeName("BLOCK")) {
-    part.kind = Kind::kCallBlock;
+    part.kind = PartKind::kCallBlock;
     SinumerikTarget first;
     SinumerikTarget second;
     if (!ParseTarget(&first)) return;
@@ -440,7 +441,7 @@ void SinumerikBlockParser::ParseSynchronous(SinumerikPart part) {
     scanner_.SkipSpaces();
     name = PeekName(scanner_);
     const Keyword* next = name.empty() ? nullptr : FindKeyword(name);
-    if (next == nullptr || next->kind != Kind::kSynchronous) {
+    if (next == nullptr || next->kind != PartKind::kSynchronous) {
       return Fail(scanner_.column(), 12080, "a condition or DO is missing here");
     }
     scanner_.Advance(name.size());

@@ -11,7 +11,6 @@ namespace ncsim::nc {
 namespace {
 
 constexpr double kMaxReal = 1e300;  // NC programming 12/2019, p. 61: REAL, 10^-300 to 10^+300.
-constexpr double kMaxInteger = 2147483647.0;
 
 int HexDigit(char c) {
   if (IsDigit(c)) return c - '0';
@@ -145,7 +144,6 @@ std::string ReadSinumerikBits(Scanner* scanner, SinumerikNumber* number) {
 }
 
 std::string ReadSinumerikString(Scanner* scanner, std::string_view* text) {
-  constexpr std::size_t kMaxString = 200;
   scanner->Advance();
   const char* begin = scanner->position();
   while (!scanner->AtEnd() && scanner->Peek() != '"') scanner->Advance();

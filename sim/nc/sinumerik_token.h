@@ -2,6 +2,7 @@
 // Internal to sim/nc: names, numbers and strings of the SINUMERIK language.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -9,6 +10,11 @@
 #include "sim/nc/scanner.h"
 
 namespace ncsim::nc {
+
+/// Of INT: 32 bits and a sign.
+inline constexpr double kMaxInteger = 2147483647.0;
+/// Characters of a STRING without a length of its own.
+inline constexpr std::size_t kMaxString = 200;
 
 constexpr bool IsNameStart(char c) { return IsLetter(c) || c == '_'; }
 constexpr bool IsNamePart(char c) { return IsNameStart(c) || IsDigit(c); }

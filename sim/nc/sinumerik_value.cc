@@ -12,9 +12,6 @@
 namespace ncsim::nc {
 namespace {
 
-constexpr double kMaxInteger = 2147483647.0;
-constexpr std::size_t kMaxString = 200;
-
 bool IsInteger(const SinumerikValue& value) {
   return value.type == SinumerikType::kInt || value.type == SinumerikType::kChar ||
          value.type == SinumerikType::kBool;

@@ -2,6 +2,7 @@
 // Macro statements of a block (Haas NGC Mill Operator's Manual 2017, "Macro Statements").
 #include <string>
 
+#include "sim/base/text.h"
 #include "sim/nc/block_parser.h"
 #include "sim/nc/expression_parser.h"
 

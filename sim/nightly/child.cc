@@ -2,10 +2,12 @@
 #include "sim/nightly/child.h"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -19,41 +21,59 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The words of a command as exec takes them. The words must outlive it.
-std::vector<char*> Pointers(std::vector<std::string>& words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  return pointers;
+/// What the child needs between fork and exec, where nothing may be allocated.
+struct Start {
+  std::vector<char*> words;
+  const char *folder, *out, *err;
+  pid_t parent;
+  int answer;  ///< Takes the errno of what failed; closed by exec.
+};
+
+bool Redirect(const char* path, int flags, int to) {
+  const int from = open(path, flags, 0666);
+  if (from < 0 || from == to) return from == to;
+  return dup2(from, to) == to && close(from) == 0;
 }
 
-int Spawn(std::vector<std::string> words, const std::string& folder, const std::string& out,
-          const std::string& err, pid_t* pid) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
+/// In the child. Other threads of the parent may have held any lock: system calls only.
+[[noreturn]] void Become(const Start& start) {
   constexpr int kNew = O_WRONLY | O_CREAT | O_TRUNC;
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), kNew, 0666);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), kNew, 0666);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  const int failed = posix_spawn(pid, words.front().c_str(), &actions, &attributes,
-                                 Pointers(words).data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return failed;
+  // Whoever kills the parent, and however, kills the child; but for a parent that is dead already.
+  const bool bound = prctl(PR_SET_PDEATHSIG, SIGKILL) == 0;
+  if (bound && getppid() != start.parent) _exit(127);
+  if (bound && setpgid(0, 0) == 0 && Redirect("/dev/null", O_RDONLY, STDIN_FILENO) &&
+      Redirect(start.out, kNew, STDOUT_FILENO) && Redirect(start.err, kNew, STDERR_FILENO) &&
+      chdir(start.folder) == 0) {
+    execv(start.words.front(), start.words.data());
+  }
+  const int failed = errno;
+  _exit(write(start.answer, &failed, sizeof failed) > 0 ? 127 : 126);
 }
 
 }  // namespace
+
+int StartChild(std::vector<std::string> command, const std::string& folder, const std::string& out,
+               const std::string& err, pid_t* pid) {
+  std::array<int, 2> answer{};
+  if (pipe2(answer.data(), O_CLOEXEC) != 0) return errno;
+  Start start{{}, folder.c_str(), out.c_str(), err.c_str(), getpid(), answer[1]};
+  for (std::string& word : command) start.words.push_back(word.data());
+  start.words.push_back(nullptr);
+  *pid = fork();
+  int failed = *pid < 0 ? errno : 0;
+  if (*pid == 0) Become(start);
+  close(answer[1]);
+  // Nothing comes where exec has closed the other end.
+  if (*pid > 0 && read(answer[0], &failed, sizeof failed) > 0) waitpid(*pid, nullptr, 0);
+  close(answer[0]);
+  return failed;
+}
 
 ChildRun RunChild(const std::vector<std::string>& command, const std::string& folder,
                   const std::string& out, const std::string& err, double timeout) {
   ChildRun run;
   pid_t pid = 0;
-  if (const int failed = Spawn(command, folder, out, err, &pid); failed != 0) {
+  if (const int failed = StartChild(command, folder, out, err, &pid); failed != 0) {
     run.trouble = "could not be started: " + std::generic_category().message(failed);
     return run;
   }

@@ -41,6 +41,7 @@ struct Row {
   std::vector<JudgedFinding> findings;
   std::vector<ReportFinding> fixed;
   std::vector<Fall> falls;  ///< Closest first.
+  std::string page;         ///< Path of its report, seen from the night's page; "" for none.
   bool is_new = false;      ///< Not a program of any earlier night, where there is one.
 
   /// As of `ncsim check`.

@@ -57,6 +57,7 @@ Json ToJson(const Row& row) {
   json["verdict"] = row.verdict;
   json["before"] = row.before.empty() ? Json(nullptr) : Json(row.before);
   json["new"] = row.is_new;
+  json["page"] = row.page.empty() ? Json(nullptr) : Json(row.page);
   json["trouble"] = row.trouble.empty() ? Json(nullptr) : Json(row.trouble);
   json["model"] = row.report ? Json(row.report->model) : Json(nullptr);
   json["blocks"] = row.report ? Json(row.report->blocks) : Json(nullptr);

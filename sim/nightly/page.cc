@@ -30,7 +30,7 @@ table{border-collapse:collapse;width:100%}
 th{text-align:left;color:var(--dim);font-weight:500;font-size:13px}
 th,td{padding:7px 10px 7px 0;border-top:1px solid var(--line);vertical-align:top}
 .number{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-td{overflow-wrap:anywhere}
+td{overflow-wrap:anywhere}td a{color:inherit;text-decoration-color:var(--dim);text-underline-offset:3px}
 .verdict{font-weight:600;white-space:nowrap}
 .pass{color:var(--pass)}.fail{color:var(--fail)}.unproven{color:var(--unproven)}.bad-input,.error{color:var(--error)}
 .details td{border-top:0;padding-top:0}
@@ -99,12 +99,19 @@ std::string Subject(const Row& row) {
   return report::Markup(text);
 }
 
+/// The name, which leads to the report.
+std::string Linked(const Row& row) {
+  const std::string name = report::Markup(row.name);
+  if (row.page.empty()) return name;
+  return "<a href=\"" + report::Markup(row.page) + "\">" + name + "</a>";
+}
+
 void WriteRow(const Row& row, std::ostream& out) {
   const std::string blocks = row.report ? std::to_string(row.report->blocks) : "";
   const std::string time = row.report ? report::Duration(row.report->time) : "";
   const std::string news = News(row);
   out << "<tr><td class=\"verdict " << row.verdict << "\">" << row.verdict << "</td><td><b>"
-      << report::Markup(row.name) << "</b></td><td data-name=\"machine\">"
+      << Linked(row) << "</b></td><td data-name=\"machine\">"
       << (row.report ? report::Markup(row.report->model) : "")
       << "</td><td class=\"number\" data-name=\"blocks\">" << blocks
       << "</td><td class=\"number\" data-name=\"time\">" << time

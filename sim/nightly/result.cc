@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "sim/base/digest.h"
 #include "sim/report/json_values.h"
 
 namespace ncsim::nightly {
@@ -17,13 +18,15 @@ using report::Json;
 
 constexpr std::array<std::string_view, 4> kKinds = {"content", "place", "listing", "variable"};
 
-Json ToJson(const std::optional<double>& number) { return number ? Json(*number) : Json(nullptr); }
+Json StoredJson(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
 
 std::optional<double> NumberOf(const Json& json) {
   return json.is_null() ? std::nullopt : std::optional<double>(json.get<double>());
 }
 
-Json ToJson(const ReportFinding& f) {
+Json StoredJson(const ReportFinding& f) {
   return {{"rule", f.rule},       {"severity", f.severity}, {"file", f.file},    {"line", f.line},
           {"message", f.message}, {"bodies", f.bodies},     {"source", f.source}};
 }
@@ -40,10 +43,10 @@ ReportFinding FindingOf(const Json& json) {
   return finding;
 }
 
-Json ToJson(const ReportClearance& c) {
+Json StoredJson(const ReportClearance& c) {
   return {{"bodies", c.bodies},
-          {"proven_mm", ToJson(c.proven)},
-          {"seen_mm", ToJson(c.seen)},
+          {"proven_mm", StoredJson(c.proven)},
+          {"seen_mm", StoredJson(c.seen)},
           {"line", c.line},
           {"file", c.file}};
 }
@@ -58,15 +61,15 @@ ReportClearance ClearanceOf(const Json& json) {
   return clearance;
 }
 
-Json ToJson(const Report& r) {
+Json StoredJson(const Report& r) {
   return {{"schema", 1},
           {"program", r.program},
           {"verdict", r.verdict},
           {"model", r.model},
           {"blocks", r.blocks},
           {"motion_time_s", r.time},
-          {"findings", Array(r.findings, [](const auto& f) { return ToJson(f); })},
-          {"clearances", Array(r.clearances, [](const auto& c) { return ToJson(c); })},
+          {"findings", Array(r.findings, [](const auto& f) { return StoredJson(f); })},
+          {"clearances", Array(r.clearances, [](const auto& c) { return StoredJson(c); })},
           {"not_checked", r.not_checked}};
 }
 
@@ -87,7 +90,7 @@ Report ReportOf(const Json& json) {
   return report;
 }
 
-Json ToJson(const std::vector<Input>& inputs) {
+Json StoredJson(const std::vector<Input>& inputs) {
   return Array(inputs, [](const Input& input) {
     return Json::array({kKinds.at(static_cast<std::size_t>(input.kind)), input.name, input.state});
   });
@@ -103,13 +106,13 @@ std::vector<Input> InputsOf(const Json& json) {
   return inputs;
 }
 
-Json ToJson(const Result& result) {
+Json StoredJson(const Result& result) {
   return {{"name", result.name},
-          {"report", result.report ? ToJson(*result.report) : Json(nullptr)},
+          {"report", result.report ? StoredJson(*result.report) : Json(nullptr)},
           {"trouble", result.trouble},
           {"bad_input", result.bad_input},
           {"key", result.key},
-          {"inputs", ToJson(result.inputs)}};
+          {"inputs", StoredJson(result.inputs)}};
 }
 
 Result ResultOf(const Json& json) {
@@ -158,13 +161,24 @@ bool Result::StillHolds(const std::string& wanted_key, const std::string& root) 
   });
 }
 
+std::string PageName(const Result& result) {
+  std::string name;
+  for (const char c : result.name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += plain || c == '.' || c == '-' ? c : '_';
+  }
+  constexpr std::size_t kLongest = 100;  // Of a file's name 255 bytes are allowed.
+  const std::string all = result.name + '\n' + result.key + '\n' + WriteInputs(result.inputs);
+  return name.substr(0, kLongest) + "-" + ToString(DigestOf(all)) + ".html";
+}
+
 std::optional<Report> ReadReport(std::string_view json) { return Read(json, ReportOf); }
 
-std::string WriteInputs(const std::vector<Input>& inputs) { return Text(ToJson(inputs)); }
+std::string WriteInputs(const std::vector<Input>& inputs) { return Text(StoredJson(inputs)); }
 
 std::optional<std::vector<Input>> ReadInputs(std::string_view json) { return Read(json, InputsOf); }
 
-std::string WriteResult(const Result& result) { return Text(ToJson(result)); }
+std::string WriteResult(const Result& result) { return Text(StoredJson(result)); }
 
 std::optional<Result> ReadResult(std::string_view json) { return Read(json, ResultOf); }
 
@@ -173,7 +187,7 @@ std::string WriteShard(const ShardFile& shard) {
                {"plan", shard.plan},
                {"index", shard.index},
                {"count", shard.count},
-               {"results", Array(shard.results, [](const auto& r) { return ToJson(r); })}});
+               {"results", Array(shard.results, [](const auto& r) { return StoredJson(r); })}});
 }
 
 std::optional<ShardFile> ReadShard(std::string_view json) { return Read(json, ShardOf); }

@@ -48,6 +48,10 @@ struct Result {
   bool StillHolds(const std::string& wanted_key, const std::string& root) const;
 };
 
+/// The file name of the page that shows this result: another result of the program has another, so
+/// a page that is there is the right one.
+std::string PageName(const Result& result);
+
 /// Reads what `ncsim check --format json` has written about one program. nullopt for anything else.
 std::optional<Report> ReadReport(std::string_view json);
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -84,12 +85,14 @@ class Runner {
   Result Check(const Entry& entry, std::size_t number) const {
     const std::string base = options_.scratch + "/" + std::to_string(number);
     const std::string json = base + ".json", inputs = base + ".inputs", err = base + ".err";
+    const std::string page = base + ".html";
     std::vector<std::string> command = {options_.executable};
     for (std::string& word : entry.Words()) command.push_back(std::move(word));
     command.insert(command.end(), {"--format", "json", "--out", json, "--inputs", inputs});
     if (options_.threads > 0) {
       command.insert(command.end(), {"--jobs", std::to_string(options_.threads)});
     }
+    if (!options_.pages.empty()) command.insert(command.end(), {"--report", page});
     const ChildRun run = RunChild(command, options_.root, base + ".out", err, entry.timeout);
     Result result;
     result.name = entry.name;
@@ -98,8 +101,10 @@ class Runner {
     if (result.report) {
       AddSources(options_.root, &result.report->findings);
       result.inputs = ReadInputs(ReadOr(inputs, "")).value_or(std::vector<Input>());
+      const std::string html = ReadOr(page, "");
+      if (!html.empty()) WriteWhole(options_.pages + "/" + PageName(result), html);
     }
-    for (const char* suffix : {".json", ".inputs", ".err", ".out"}) {
+    for (const char* suffix : {".json", ".inputs", ".err", ".out", ".html"}) {
       std::error_code error;
       fs::remove(base + suffix, error);
     }
@@ -147,9 +152,12 @@ std::vector<Result> RunChecks(const std::vector<Entry>& entries, const RunOption
   std::vector<Result> results(entries.size());
   std::mutex mutex;
   std::vector<std::size_t> open;
+  const auto has_page = [&](const Result& result) {
+    return options.pages.empty() || fs::exists(options.pages + "/" + PageName(result));
+  };
   for (std::size_t i = 0; i < entries.size(); ++i) {
     std::optional<Result> old = known(entries[i]);
-    if (old && old->StillHolds(KeyOf(entries[i], options.build), options.root)) {
+    if (old && old->StillHolds(KeyOf(entries[i], options.build), options.root) && has_page(*old)) {
       results[i] = std::move(*old);
       progress(results[i], false);
     } else {
@@ -178,7 +186,10 @@ std::vector<Result> RunChecks(const std::vector<Entry>& entries, const RunOption
 }
 
 bool WriteWhole(const std::string& path, const std::string& text) {
-  const std::string temporary = path + "." + std::to_string(getpid()) + ".new";
+  // Another machine may write the same file.
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string temporary = path + "." + host.data() + "." + std::to_string(getpid()) + ".new";
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   file << text;
   file.close();

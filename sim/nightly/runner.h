@@ -19,6 +19,7 @@ struct RunOptions {
   std::string scratch;     ///< An absolute path of a folder, made and removed again.
   int jobs = 1;            ///< Checks at a time.
   int threads = 0;         ///< Of each check; 0: as it likes.
+  std::string pages;       ///< Folder for a page of each result (PageName); "" for none.
 };
 
 /// Digest of what names a check of `entry`: its words and the build.
@@ -27,8 +28,8 @@ std::string KeyOf(const Entry& entry, const std::string& build);
 /// Called by one thread at a time, as soon as something is known. `checked`: a process was run.
 using Progress = std::function<void(const Result& result, bool checked)>;
 
-/// In the order of `entries`. What `known` still holds is taken as it is. A check that crashes,
-/// hangs or prints rubbish is a result that says so, and nothing to the others.
+/// In the order of `entries`. What `known` still holds, and has its page, is taken as it is. A
+/// check that crashes, hangs or prints rubbish is a result that says so, and nothing to the others.
 std::vector<Result> RunChecks(const std::vector<Entry>& entries, const RunOptions& options,
                               const std::function<std::optional<Result>(const Entry&)>& known,
                               const Progress& progress);

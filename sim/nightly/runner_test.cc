@@ -4,10 +4,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 
-#include "sim/nightly/child.h"
 #include "sim/nightly/test_folder.h"
 
 namespace ncsim::nightly {
@@ -41,6 +45,7 @@ case $program in
   half*) echo '{"schema":1,"verdict":"pass"' > "$out" ;;
   crash*) echo "about to crash" >&2; kill -SEGV $$ ;;
   hang*) sleep 1000 & echo $! > sleeper; wait ;;
+  last*) echo $$ > sleeper; exec sleep 1000 ;;
   bad*) echo "bad.nc: error: no machine" >&2; exit 3 ;;
   silent*) ;;
   *) exit 4 ;;
@@ -117,15 +122,40 @@ TEST_F(RunnerTest, OneThatCrashesHangsOrPrintsRubbishIsNothingToTheOthers) {
   }
 }
 
+/// Whether the process runs whose number stands in `file`. One that is killed may lie unburied.
+bool IsAlive(const std::string& file) {
+  std::string pid, state;
+  if (!(std::ifstream(file) >> pid)) return false;
+  std::ifstream("/proc/" + pid + "/stat") >> state >> state >> state;
+  return !state.empty() && state != "Z";
+}
+
+/// Within a minute.
+bool ComesTrue(const std::function<bool()>& condition) {
+  for (int i = 0; i < 6000 && !condition(); ++i) usleep(10'000);
+  return condition();
+}
+
 TEST_F(RunnerTest, NothingOfOneThatHangsIsLeft) {
   Run({"hang.nc"}, 0.5);
-  std::ifstream in(folder_ / "sleeper");
-  pid_t sleeper = 0;
-  ASSERT_TRUE(in >> sleeper);
-  // Killed with the group; its new parent may take a moment to bury it.
-  std::string state;
-  std::ifstream(("/proc/" + std::to_string(sleeper) + "/stat")) >> state >> state >> state;
-  EXPECT_TRUE(state.empty() || state == "Z") << state;
+  ASSERT_GT(fs::file_size(folder_ / "sleeper"), 0U);
+  EXPECT_TRUE(ComesTrue([&] { return !IsAlive(folder_ / "sleeper"); }));
+}
+
+TEST_F(RunnerTest, ACheckDiesWithWhoRunsIt) {
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    fs::remove(folder_ / "sleeper");
+    const pid_t night = fork();
+    if (night == 0) {
+      Run({"last.nc"}, 1000.0);
+      _exit(0);
+    }
+    const bool runs = ComesTrue([&] { return IsAlive(folder_ / "sleeper"); });
+    kill(night, signal);
+    waitpid(night, nullptr, 0);
+    EXPECT_TRUE(runs);
+    EXPECT_TRUE(ComesTrue([&] { return !IsAlive(folder_ / "sleeper"); })) << signal;
+  }
 }
 
 TEST_F(RunnerTest, OnlyWhatChangedIsCheckedAgain) {

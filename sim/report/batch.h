@@ -38,6 +38,8 @@ void WriteJunit(const std::vector<ProgramReport>& programs, std::ostream& out);
 /// has its summary line.
 void WriteGithub(const std::vector<ProgramReport>& programs, std::ostream& out);
 
+/// "holder of T1 hits jaw (from vise.cls:40)"
+std::string Message(const Finding& finding, const SourceFiles& files);
 /// "vise.nc:12:1: holder of T1 hits jaw", without the rule.
 std::string InALine(const Finding& finding, const SourceFiles& files);
 /// The severity as these formats gate on it: what is unproven stops as an error does.

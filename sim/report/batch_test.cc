@@ -191,6 +191,14 @@ TEST(JunitTest, ATestCaseAProgram) {
                               "checked\">d.nc: error: cannot be read\n</error>"));
 }
 
+// Jenkins' schema has errors before failures, whatever the rules' order.
+TEST(JunitTest, ErrorsStandBeforeFailures) {
+  const std::string text =
+      Batch().Add("a.nc", {MakeFinding(Rule::kUncertified, {0, 1, 1}, "u"), Hit(2)}).Junit();
+  EXPECT_LT(text.find("<error type=\"uncertified\""), text.find("<failure type=\"collision\""));
+  EXPECT_THAT(text, HasSubstr("failures=\"1\" errors=\"0\">\n  <testcase"));
+}
+
 TEST(JunitTest, HostileTextIsText) {
   Finding finding = Hit(1);
   finding.message = "\"<&>]]>\x1B[2J\xEF\xBF\xBF\xFF";

@@ -13,19 +13,19 @@ namespace {
 /// Of additions the first so many are printed.
 constexpr std::size_t kMaxAdded = 20;
 
-std::string Place(const SourcePosition& where, const SourceFiles& files) {
+std::string PlaceText(const SourcePosition& where, const SourceFiles& files) {
   return files.name(where.file) + (where.line > 0 ? ":" + std::to_string(where.line) : "");
 }
 
 /// A proven bound is rounded up.
-std::string RoundedUp(double value) { return Fixed(std::ceil(value * 1e4 - 1e-6) * 1e-4, 4); }
+std::string RoundedUpText(double value) { return Fixed(std::ceil(value * 1e4 - 1e-6) * 1e-4, 4); }
 
 void WriteLargest(const std::string& what, const std::string& value,
                   const compare::Largest& largest, const SourceFiles& files, std::ostream& out) {
   out << Printable("largest deviation of the " + what + ": " + value);
   if (largest.tested.line > 0) {
-    out << Printable(", at " + Place(largest.tested, files) + " and " +
-                     Place(largest.reference, files));
+    out << Printable(", at " + PlaceText(largest.tested, files) + " and " +
+                     PlaceText(largest.reference, files));
   }
   out << "\n";
 }
@@ -42,8 +42,8 @@ std::string Summary(const CompareResult& result) {
 std::string Nearness(const CompareResult& result) {
   const compare::Comparison& comparison = result.comparison;
   return Printable(result.tested.program + ": the motion of " + result.reference.program +
-                   ": tip within " + RoundedUp(comparison.position.value) +
-                   " mm, tool axis within " + RoundedUp(Degrees(comparison.angle.value)) +
+                   ": tip within " + RoundedUpText(comparison.position.value) +
+                   " mm, tool axis within " + RoundedUpText(Degrees(comparison.angle.value)) +
                    " deg, over " + Fixed(comparison.feed_length, 0) + " mm of feeds");
 }
 
@@ -54,16 +54,16 @@ void WriteText(const CompareResult& result, const SourceFiles& files, const Line
   if (!comparison.added.empty()) out << "added, which is no error:\n";
   for (std::size_t i = 0; i < std::min(kMaxAdded, comparison.added.size()); ++i) {
     const compare::Added& added = comparison.added[i];
-    out << Printable("  " + Place(added.where, files) + ": " + added.text) << "\n";
+    out << Printable("  " + PlaceText(added.where, files) + ": " + added.text) << "\n";
   }
   if (comparison.added.size() > kMaxAdded) {
     out << "  ... and " << comparison.added.size() - kMaxAdded
         << " more; --format json lists them all\n";
   }
-  WriteLargest("tip", RoundedUp(comparison.position.value) + " mm", comparison.position, files,
+  WriteLargest("tip", RoundedUpText(comparison.position.value) + " mm", comparison.position, files,
                out);
-  WriteLargest("tool axis", RoundedUp(Degrees(comparison.angle.value)) + " deg", comparison.angle,
-               files, out);
+  WriteLargest("tool axis", RoundedUpText(Degrees(comparison.angle.value)) + " deg",
+               comparison.angle, files, out);
   std::vector<Assumption> placing;  // The others move nothing that is held together.
   for (const ComparedProgram* program : {&result.reference, &result.tested}) {
     for (const Assumption& assumption : program->assumptions) {

@@ -75,7 +75,7 @@ void WriteGithub(const std::vector<ProgramReport>& programs, std::ostream& out) 
       annotations[kind].push_back(
           {turns[finding.rule]++,
            Command(kind == 0 ? "error" : "warning", program.files->name(where.file), where.line,
-                   where.column, Info(finding.rule).id, finding.message)});
+                   where.column, Info(finding.rule).id, Message(finding, *program.files))});
     }
   }
   Write(std::move(annotations[0]), "error", out);

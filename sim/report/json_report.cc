@@ -28,6 +28,7 @@ Json ToJson(const Finding& finding, const SourceFiles& files) {
   json["column"] = finding.where.column;
   json["message"] = finding.message;
   if (finding.other) json["other"] = Place(*finding.other, files);
+  if (finding.posted_from) json["posted_from"] = Place(*finding.posted_from, files);
   AddDetails(finding, &json);
   return json;
 }

@@ -31,7 +31,12 @@ void WriteProblem(const JunitProblem& problem, std::ostream& out) {
 void WriteCase(const JunitCase& test, std::ostream& out) {
   out << "  <testcase classname=\"" << Markup(test.classname) << "\" name=\"" << Markup(test.name)
       << "\">\n";
-  for (const JunitProblem& problem : test.problems) WriteProblem(problem, out);
+  // Jenkins' schema has errors before failures.
+  for (const bool failure : {false, true}) {
+    for (const JunitProblem& problem : test.problems) {
+      if (problem.failure == failure) WriteProblem(problem, out);
+    }
+  }
   if (!test.output.empty()) {
     out << "   <system-out>";
     for (std::size_t i = 0; i < test.output.size(); ++i) {
@@ -98,13 +103,19 @@ void WriteJunitCases(const std::string& suite, const std::vector<JunitCase>& cas
   out << " </testsuite>\n</testsuites>\n";
 }
 
+std::string Message(const Finding& finding, const SourceFiles& files) {
+  if (!finding.posted_from) return finding.message;
+  return finding.message + " (from " + files.name(finding.posted_from->file) + ":" +
+         std::to_string(finding.posted_from->line) + ")";
+}
+
 std::string InALine(const Finding& finding, const SourceFiles& files) {
   std::string text = files.name(finding.where.file);
   if (finding.where.line > 0) text += ":" + std::to_string(finding.where.line);
   if (finding.where.line > 0 && finding.where.column > 0) {
     text += ":" + std::to_string(finding.where.column);
   }
-  return text + ": " + finding.message;
+  return text + ": " + Message(finding, files);
 }
 
 bool Stops(const Finding& finding) { return finding.severity != Severity::kWarning; }

@@ -34,7 +34,7 @@ class Columns {
   std::string bytes_;
 };
 
-Json Numbers(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json Coordinates(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// A limit or nothing, in mm or degrees.
 Json Limit(double value, bool rotary) {
@@ -73,9 +73,9 @@ Json Links(const machine::Machine& machine) {
       item["parent"] = joint.parent_link;
       item["joint"] = joint.index;
       item["turns"] = joint.type == kinematics::JointType::kRevolute;
-      item["place"] = Numbers(joint.X_PJ.translation());
+      item["place"] = Coordinates(joint.X_PJ.translation());
       item["rotation"] = {q.x(), q.y(), q.z(), q.w()};
-      item["axis"] = Numbers(joint.axis);
+      item["axis"] = Coordinates(joint.axis);
     }
     links.push_back(std::move(item));
   }
@@ -175,7 +175,7 @@ Json Contacts(const Page& page) {
         shown.col(k) = machine.Coordinates(Vector3d::Unit(k), q) - origin;
       }
       for (const std::array<double, 3>& p : finding.points) {
-        points.push_back(Numbers(shown.inverse() * (Vector3d(p[0], p[1], p[2]) - origin)));
+        points.push_back(Coordinates(shown.inverse() * (Vector3d(p[0], p[1], p[2]) - origin)));
       }
     }
     contacts.push_back(std::move(points));

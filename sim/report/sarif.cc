@@ -143,9 +143,10 @@ class Results {
                  {"level", Stops(finding) ? "error" : "warning"},
                  {"message", {{"text", Printable(finding.message)}}},
                  {"locations", {Location(finding.where, program)}}};
-    if (finding.other) {
-      json["relatedLocations"] = {Location(*finding.other, program)};
-      json["relatedLocations"][0]["message"] = {{"text", "the same place in the other program"}};
+    if (finding.posted_from) {
+      Json from = Location(*finding.posted_from, program);
+      from["message"] = {{"text", "posted from here"}};
+      json["relatedLocations"] = Json::array({std::move(from)});
     }
     std::string key = std::string(Info(finding.rule).id) + '\n' + files.name(finding.where.file);
     if (program.line_text && finding.where.line > 0) {

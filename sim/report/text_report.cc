@@ -36,6 +36,13 @@ void WriteFinding(const Finding& finding, const SourceFiles& files, const LineTe
                      ": " + std::string(other))
         << "\n";
   }
+  if (finding.posted_from) {
+    const SourcePosition& from = *finding.posted_from;
+    const std::string_view record = line_text(from.file, from.line);
+    out << Printable("  from " + Position(from, files) + (record.empty() ? "" : ": ") +
+                     std::string(record))
+        << "\n";
+  }
   if (finding.points.empty()) return;
   const auto& [x, y, z] = finding.points.back();
   out << "  contact point, machine coordinates: "

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nights of the crash gallery, with programs beside it that crash, hang and cannot be read: the
-// program itself checks, behind a script that does what the name of a program says.
+// Nights of the crash gallery: what is checked again, what is new, what is merged.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,14 +9,11 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
-#include <sstream>
 #include <string>
 
-#include "sim/app/nightly_command.h"
+#include "tests/nightly/night_rig.h"
 
 namespace {
 
@@ -26,131 +22,26 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr const char* kScript = R"sh(#!/bin/sh
-case $2 in
-  broken/crash*) kill -SEGV $$ ;;
-  broken/hang*) sleep 1000 ;;
-  *) exec "PROGRAM" "$@" ;;
-esac
-)sh";
-
-std::string Read(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-void Write(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-struct Outcome {
-  int code = 0, checked = -1;
-  std::string out, err;
-};
-
-class NightlyTest : public ::testing::Test {
+class NightlyTest : public NightRig {
  protected:
-  NightlyTest()
-      : root_(fs::path(::testing::TempDir()) / ("ncsim_nightly_" + std::to_string(getpid()))) {
-    fs::remove_all(root_);
+  NightlyTest() {
     fs::create_directories(root_ / "parts");
     fs::copy(fs::path(NCSIM_SOURCE_DIR) / "scenes/crash_gallery", root_ / "parts/gallery",
              fs::copy_options::recursive);
     AddBroken("crash.nc");
-    Write(root_ / "parts/broken/job.nc", "G0 X1.\nM30\n");
-    Write(root_ / "parts/broken/job.nc.job.toml", "this is no job");
-    Write(root_ / "checker",
-          std::regex_replace(std::string(kScript), std::regex("PROGRAM"), NCSIM_PROGRAM));
-    fs::permissions(root_ / "checker", fs::perms::owner_all);
-    options_.what = (root_ / "parts").string();
-    options_.executable = (root_ / "checker").string();
-    options_.timeout = 10.0;
-    options_.jobs = 2;
-    options_.today = "2026-01-01";
+    AddBroken("job.nc");
+    WriteText(root_ / "parts/broken/job.nc.job.toml", "this is no job");
   }
-  ~NightlyTest() override { fs::remove_all(root_); }
-
-  void AddBroken(const std::string& name) const {
-    Write(root_ / "parts/broken" / name, "M30\n");
-    Write(root_ / "parts/broken" / (name + ".job.toml"), "schema = 1\n");
-  }
-  Outcome Run(const std::string& out) {
-    options_.out = (root_ / out).string();
-    std::ostringstream text, err;
-    Outcome outcome;
-    outcome.code = app::Nightly(options_, text, err);
-    outcome.out = text.str();
-    outcome.err = err.str();
-    std::smatch match;
-    if (std::regex_search(outcome.err, match,
-                          std::regex(R"((\d+) of \d+ programs were checked)"))) {
-      outcome.checked = std::stoi(match[1]);
-    }
-    return outcome;
-  }
-  /// The rows of nightly.json by name.
-  std::map<std::string, json> Rows(const std::string& out) const {
-    std::map<std::string, json> rows;
-    const json night = json::parse(Read(root_ / out / "nightly.json"));
-    for (const json& row : night.at("programs")) {
-      rows[row.at("name")] = row;
-    }
-    return rows;
-  }
-  void Merge(const std::string& out, int shards) {
-    for (int i = 0; i < shards; ++i) {
-      options_.shard = i;
-      options_.shard_count = shards;
-      ASSERT_EQ(Run(out).code, 0) << "verdicts do not make a shard fail";
-    }
-    options_.shard_count = 0;
-    options_.merge = true;
-  }
-
-  fs::path root_;
-  app::NightlyOptions options_;
 };
-
-// The truth of the gallery is the first line of each program.
-TEST_F(NightlyTest, EveryProgramHasItsRowWhateverTheOthersDo) {
-  AddBroken("hang.nc");
-  const Outcome night = Run("out");
-  EXPECT_EQ(night.code, 4);
-  const std::map<std::string, json> rows = Rows("out");
-  int gallery = 0;
-  for (const auto& [name, row] : rows) {
-    if (!name.starts_with("gallery/")) continue;
-    ++gallery;
-    std::string first = Read(root_ / "parts" / name);
-    first = first.substr(0, first.find_first_of("\r\n"));
-    std::smatch match;
-    ASSERT_TRUE(std::regex_search(first, match, std::regex("EXPECT (\\d+): ([a-z-]+)"))) << name;
-    bool found = false;
-    for (const json& finding : row.at("findings")) {
-      found = found || (finding.at("rule") == match[2].str() &&
-                        finding.at("line") == std::stoi(match[1].str()));
-    }
-    EXPECT_TRUE(found) << name;
-  }
-  EXPECT_GT(gallery, 25);
-  EXPECT_EQ(rows.size(), static_cast<std::size_t>(gallery) + 3U);
-  EXPECT_THAT(rows.at("broken/crash.nc").at("trouble"), HasSubstr("crashed: signal 11"));
-  EXPECT_THAT(rows.at("broken/hang.nc").at("trouble"), HasSubstr("longer than 10 s"));
-  EXPECT_EQ(rows.at("broken/job.nc").at("verdict"), "bad-input");
-  EXPECT_THAT(Read(root_ / "out/nightly.xml"), HasSubstr("name=\"broken/crash.nc\""));
-  EXPECT_THAT(night.out, HasSubstr("collision.nc"));
-}
 
 // Counted in checks, not in seconds: the two that are broken are tried again.
 TEST_F(NightlyTest, TheSecondRunTakesUnderATenthOfTheFirst) {
   const int first = Run("out").checked;
-  const std::string table = Read(root_ / "out/nightly.json");
+  const std::string table = ReadText(root_ / "out/nightly.json");
   const int second = Run("out").checked;
   EXPECT_EQ(second, 2);
   EXPECT_LT(10 * second, first);
-  EXPECT_EQ(Read(root_ / "out/nightly.json"), table) << "the same night says the same";
+  EXPECT_EQ(ReadText(root_ / "out/nightly.json"), table) << "the same night says the same";
   options_.all = true;
   EXPECT_EQ(Run("out").checked, first);
 }
@@ -168,10 +59,10 @@ class SmallNightTest : public NightlyTest {
     }
   }
   void Replace(const std::string& file, const std::string& from, const std::string& to) const {
-    std::string text = Read(root_ / "parts/gallery" / file);
+    std::string text = ReadText(root_ / "parts/gallery" / file);
     const std::size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos);
-    Write(root_ / "parts/gallery" / file, text.replace(at, from.size(), to));
+    WriteText(root_ / "parts/gallery" / file, text.replace(at, from.size(), to));
   }
 };
 
@@ -182,11 +73,11 @@ TEST_F(SmallNightTest, WhatItWasCheckedWithIsLookedAt) {
   EXPECT_EQ(Run("out").checked, 1) << "the program";
   Replace("collision.nc.job.toml", "length = 150.0", "length = 150.5");
   EXPECT_EQ(Run("out").checked, 1) << "the job";
-  std::string mesh = Read(root_ / "parts/gallery/open_box.stl");
+  std::string mesh = ReadText(root_ / "parts/gallery/open_box.stl");
   mesh[40] = mesh[40] == 'x' ? 'y' : 'x';
-  Write(root_ / "parts/gallery/open_box.stl", mesh);
+  WriteText(root_ / "parts/gallery/open_box.stl", mesh);
   EXPECT_EQ(Run("out").checked, 1) << "a mesh";
-  Write(root_ / "parts/gallery/near-miss.job.toml", "schema = 1\n");
+  WriteText(root_ / "parts/gallery/near-miss.job.toml", "schema = 1\n");
   EXPECT_EQ(Run("out").code, 3) << "a second job has appeared: which one is meant?";
   fs::remove(root_ / "parts/gallery/near-miss.job.toml");
   // A model of the same name where one is looked for first.
@@ -208,7 +99,7 @@ TEST_F(SmallNightTest, SaysWhatIsNewAndWhatCameCloser) {
   options_.today = "2026-01-02";
   Replace("near-miss.nc", "Y14.", "Y16.");   // The holder now hits the jaw.
   Replace("collision.nc", "X75.", "X-75.");  // It stays where it is.
-  const Outcome night = Run("out");
+  const NightOutcome night = Run("out");
   EXPECT_EQ(night.checked, 2);
   const std::map<std::string, json> rows = Rows("out");
   EXPECT_EQ(rows.at("gallery/near-miss.nc").at("before"), "pass");
@@ -220,40 +111,68 @@ TEST_F(SmallNightTest, SaysWhatIsNewAndWhatCameCloser) {
 }
 
 TEST_F(SmallNightTest, TheBaselineCountsInTheExitCode) {
-  Write(root_ / "baseline.toml",
-        "schema = 1\n[[accept]]\nprogram = \"gallery/collision.nc\"\nrule = \"collision\"\n"
-        "line_text = \"N95 G01 X75.\"\nreason = \"the jaw is soft\"\nexpires = \"2026-01-31\"\n");
+  WriteText(
+      root_ / "baseline.toml",
+      "schema = 1\n[[accept]]\nprogram = \"gallery/collision.nc\"\nrule = \"collision\"\n"
+      "line_text = \"N95 G01 X75.\"\nreason = \"the jaw is soft\"\nexpires = \"2026-01-31\"\n");
   EXPECT_EQ(Run("out").code, 1);
   options_.baseline = (root_ / "baseline.toml").string();
-  const Outcome accepted = Run("out");
+  const NightOutcome accepted = Run("out");
   EXPECT_EQ(Rows("out").at("gallery/collision.nc").at("verdict"), "pass");
   EXPECT_EQ(accepted.code, 2) << "the uncertified one";
   EXPECT_EQ(accepted.checked, 0);
   for (const char* file : {"nightly.json", "nightly.xml", "index.html"}) {
-    EXPECT_THAT(Read(root_ / "out" / file), HasSubstr("the jaw is soft")) << file;
+    EXPECT_THAT(ReadText(root_ / "out" / file), HasSubstr("the jaw is soft")) << file;
   }
   EXPECT_THAT(accepted.out, HasSubstr("the jaw is soft; 1 found"));
   options_.today = "2026-02-01";
   EXPECT_EQ(Run("out").code, 1);
 }
 
-TEST_F(NightlyTest, ShardsMergedAreTheSingleRunByteForByte) {
-  AddBroken("hang.nc");
-  const int single = Run("single").code;
-  Merge("merged", 4);
-  EXPECT_EQ(Run("merged").code, single);
-  for (const char* file : {"nightly.json", "nightly.xml", "index.html"}) {
-    const std::string text = Read(root_ / "single" / file);
-    EXPECT_GT(text.size(), 1000U);
-    EXPECT_EQ(Read(root_ / "merged" / file), text) << file;
-    EXPECT_EQ(text.find(root_.string()), std::string::npos) << "no absolute path";
+TEST_F(SmallNightTest, EachProgramHasItsPage) {
+  const auto pages = [&] {
+    std::map<std::string, std::string> found;
+    for (const auto& [name, row] : Rows("out")) {
+      if (row.at("page").is_string()) found[name] = row.at("page");
+    }
+    return found;
+  };
+  EXPECT_EQ(Run("out").checked, 3);
+  EXPECT_TRUE(pages().empty());
+  options_.reports = true;
+  EXPECT_EQ(Run("out").checked, 3) << "there is none yet";
+  const auto first = pages();
+  ASSERT_EQ(first.size(), 3U);
+  const std::string index = ReadText(root_ / "out/index.html");
+  for (const auto& [name, page] : first) {
+    EXPECT_THAT(index, HasSubstr("<a href=\"" + page + "\">" + name + "</a>"));
+    EXPECT_THAT(ReadText(root_ / "out" / page), HasSubstr("</html>")) << page;
   }
+  EXPECT_EQ(Run("out").checked, 0);
+  fs::remove(root_ / "out" / first.at("gallery/near-miss.nc"));
+  EXPECT_EQ(Run("out").checked, 1);
+  EXPECT_EQ(pages(), first);
+  // A page is of what was checked: when it is not made anew, there is no link to the old one.
+  Replace("near-miss.nc", "F800.", "F801.");
+  options_.reports = false;
+  EXPECT_EQ(Run("out").checked, 1);
+  EXPECT_EQ(pages().count("gallery/near-miss.nc"), 0U);
+  EXPECT_EQ(pages().size(), 2U);
+  EXPECT_FALSE(fs::exists(root_ / "out" / first.at("gallery/near-miss.nc")));
+  options_.reports = true;
+  EXPECT_EQ(Run("out").checked, 1);
+  EXPECT_NE(pages().at("gallery/near-miss.nc"), first.at("gallery/near-miss.nc"));
+  // Of shards too.
+  RunShards("merged", 2);
+  options_.reports = false;
+  Run("merged");
+  EXPECT_EQ(ReadText(root_ / "merged/index.html"), ReadText(root_ / "out/index.html"));
 }
 
 TEST_F(SmallNightTest, AShardThatIsMissingIsAnErrorInItsRows) {
-  Merge("out", 3);
+  RunShards("out", 3);
   fs::remove(root_ / "out/shards/1-of-3.json");
-  const Outcome night = Run("out");
+  const NightOutcome night = Run("out");
   EXPECT_EQ(night.code, 4);
   EXPECT_THAT(night.err, HasSubstr("error: shard 1/3 left nothing"));
   int missing = 0;
@@ -266,22 +185,22 @@ TEST_F(SmallNightTest, AShardThatIsMissingIsAnErrorInItsRows) {
 }
 
 TEST_F(SmallNightTest, WhatHasChangedSinceAShardIsNotMerged) {
-  Merge("out", 1);
+  RunShards("out", 1);
   Replace("near-miss.nc.job.toml", "length = 150.0", "length = 140.0");
   EXPECT_EQ(Run("out").code, 4);
   EXPECT_EQ(Rows("out").at("gallery/near-miss.nc").at("trouble"),
             "what it was checked with has changed since");
-  Write(root_ / "parts/gallery/new.nc.job.toml", "schema = 1\n");
-  Write(root_ / "parts/gallery/new.nc", "M30\n");
+  WriteText(root_ / "parts/gallery/new.nc.job.toml", "schema = 1\n");
+  WriteText(root_ / "parts/gallery/new.nc", "M30\n");
   EXPECT_THAT(Run("out").err, HasSubstr("shard 0/1 is of another list of programs"));
 }
 
 TEST_F(SmallNightTest, NothingToMergeIsBadInput) {
   options_.merge = true;
   EXPECT_EQ(Run("out").code, 3);
-  Write(root_ / "out/shards/0-of-2.json", "{}");
+  WriteText(root_ / "out/shards/0-of-2.json", "{}");
   EXPECT_EQ(Run("out").code, 4);
-  Write(root_ / "out/shards/0-of-3.json", "{}");
+  WriteText(root_ / "out/shards/0-of-3.json", "{}");
   EXPECT_EQ(Run("out").code, 3);
 }
 
@@ -300,7 +219,7 @@ TEST_F(NightlyTest, AKilledShardLeavesNothingHalf) {
   pid_t pid = 0;
   ASSERT_EQ(posix_spawn(&pid, NCSIM_PROGRAM, &actions, nullptr, arguments.data(), environ), 0);
   posix_spawn_file_actions_destroy(&actions);
-  while (Read(log).find("[5/") == std::string::npos && kill(pid, 0) == 0) usleep(2000);
+  while (ReadText(log).find("[5/") == std::string::npos && kill(pid, 0) == 0) usleep(2000);
   kill(pid, SIGKILL);
   int status = 0;
   waitpid(pid, &status, 0);

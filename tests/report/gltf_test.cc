@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "tests/corpus/umc750_job.h"
 #include "tests/report/shown_run.h"
+#include "tests/report/tools.h"
 
 namespace ncsim::report {
 namespace {
@@ -134,19 +134,11 @@ void ExpectPose(const Glb& glb, const TraceRow& row, double mm) {
   EXPECT_LT((shown - turned).norm(), 1e-3 * mm) << row.line;  // mm at a metre
 }
 
-bool Has(const std::string& program) {
-  return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
-}
-
 void ExpectValid(const ShownRun& run) {
-  const std::string folder = std::string(NCSIM_SOURCE_DIR) + "/tests/report";
-  const std::string modules = folder + "/node_modules";
-  if (!Has("node") || !std::filesystem::exists(modules + "/gltf-validator")) {
-    GTEST_SKIP() << "the Khronos validator is not there: npm ci in tests/report";
-  }
-  EXPECT_EQ(std::system(
-                ("node '" + folder + "/validate_gltf.cjs' '" + run.gltf().string() + "'").c_str()),
-            0);
+  const std::string missing = WhyNoPackages();
+  if (!missing.empty()) GTEST_SKIP() << "the Khronos validator: " << missing;
+  const Said said = RunNode("validate_gltf.cjs", Quoted(run.gltf().string()));
+  EXPECT_EQ(said.exit_code, 0) << said.text;
 }
 
 TEST(GltfTest, TheFinalPoseIsThatOfTheTrace) {

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <sstream>
 
+#include "sim/app/app.h"
+#include "sim/nightly/test_folder.h"
 #include "tests/corpus/umc750_job.h"
 #include "tests/report/browser.h"
 #include "tests/report/shown_run.h"
@@ -232,6 +235,66 @@ TEST_F(ReportPage, PickingAFindingALineAndAKey) {
   browser_->Press(" ");
   EXPECT_GT(browser_->Evaluate("ncsim.time"), begin);
   EXPECT_EQ(browser_->Evaluate("ncsim.playing"), false);
+  ExpectNoComplaint();
+}
+
+// What is hidden behind another tab does not scroll by itself.
+TEST_F(ReportPage, ATabComesUpWithWhatIsAtWork) {
+  const ShownRun run(ScenePath("five_axis/dome.nc"));
+  Open(run, 400);
+  ClickOn("#tabs [data-tab=text]");
+  Draw();
+  EXPECT_GT(browser_->Evaluate("ncsim.text.now.line"), 100);
+  EXPECT_EQ(browser_->Evaluate(
+                "(() => { const row = document.querySelector('#nc .now').getBoundingClientRect(),"
+                " box = document.getElementById('nc').getBoundingClientRect();"
+                " return row.top >= box.top && row.bottom <= box.bottom; })()"),
+            true);
+  ExpectNoComplaint();
+}
+
+// A line that cannot be read, a body that cannot be checked, an offset that nobody states.
+TEST_F(ReportPage, WhatIsNoMotionIsShownToo) {
+  const ShownRun syntax(ScenePath("crash_gallery/syntax.nc"));
+  Open(syntax, 1280);
+  ExpectAxes(syntax.trace().back().axes, 1e-3, "where the last motion has ended");
+  EXPECT_EQ(browser_->Evaluate("ncsim.faulty().some((one) => one)"), false);
+  const ShownRun uncertified(ScenePath("crash_gallery/uncertified.nc"));
+  Open(uncertified, 1280);
+  EXPECT_EQ(browser_->Evaluate("ncsim.view.lit.join()"), "stop");
+  Draw();
+  const double off = browser_->Evaluate(
+      "ncsim.view.box((b) => b.name === 'stop').getCenter(new THREE.Vector3())"
+      ".project(ncsim.view.camera).setZ(0).length()");
+  EXPECT_LT(off, 0.1) << "it is not in the middle of the view";
+  const ShownRun assumed(ScenePath("crash_gallery/assumed.nc"));
+  Open(assumed, 1280);
+  const double distance = browser_->Evaluate("ncsim.view.turn.distance");
+  EXPECT_NEAR(browser_->Evaluate("ncsim.view.fit(), ncsim.view.turn.distance"), distance, 1e-6)
+      << "it has no place: all of the machine is shown";
+  ExpectNoComplaint();
+}
+
+// What `ncsim post --map` has left beside the program.
+TEST_F(ReportPage, AFindingShowsTheRecordItWasPostedFrom) {
+  const nightly::TestFolder folder("posted_page");
+  const std::string job = ScenePath("posted/hub.nc.job.toml").string();
+  std::ostringstream out, err;
+  ASSERT_EQ(app::Run({"post", ScenePath("posted/hub.cls").string(), "--job", job, "-o",
+                      folder / "hub.nc", "--map", "--no-check"},
+                     out, err),
+            0)
+      << err.str();
+  const ShownRun run(folder / "hub.nc", {"--job", job, "--clearance", "35"});
+  Open(run, 1280);
+  ClickOn("#findings .item");
+  const Json from = browser_->Evaluate("ncsim.current.posted_from");
+  ASSERT_FALSE(from.is_null());
+  std::istringstream cl(ReadBytes(ScenePath("posted/hub.cls")));
+  std::string record;
+  for (int i = 0; i < from.at("line"); ++i) std::getline(cl, record);
+  EXPECT_EQ(browser_->Evaluate("document.querySelectorAll('#headline .where')[1].textContent"),
+            "from hub.cls line " + std::to_string(from.at("line").get<int>()) + " " + record);
   ExpectNoComplaint();
 }
 

@@ -38,20 +38,26 @@ class App {
   /** A finding with its instant: its own, or that of its block. */
   place(finding, points) {
     const fileIndex = Math.max(0, this.page.scene.texts.findIndex((text) => text.name === finding.file));
-    let time = finding.time_s === undefined ? null : finding.time_s;
+    let time = finding.time_s === undefined ? null : finding.time_s, moves = time !== null;
     if (time === null && finding.line > 0) {
-      let step = this.run.stepOfLine(fileIndex, finding.line, -1);
-      if (step < 0) step = this.run.stepBefore(fileIndex, finding.line);
-      if (step >= 0) time = this.run.begin[step];
+      const step = this.run.stepOfLine(fileIndex, finding.line, -1);
+      moves = step >= 0;
+      time = moves ? this.run.begin[step] : this.endBefore(fileIndex, finding.line);
     }
-    return {...finding, fileIndex, points, time, bodies: finding.bodies || []};
+    return {...finding, fileIndex, points, time, moves, bodies: finding.bodies || []};
+  }
+
+  /** Where a line makes no motion the machine stands as the last one before it has left it; null before the first. */
+  endBefore(file, line) {
+    const step = this.run.stepBefore(file, line);
+    return step < 0 ? null : this.run.endOf(step);
   }
 
   /** Of each step: is an error told of it? One is told for a run of blocks, with the last of them. */
   faulty() {
     const faulty = new Uint8Array(this.run.begin.length);
     for (const finding of this.findings) {
-      if (finding.severity !== 'error' || finding.time === null) continue;
+      if (finding.severity !== 'error' || !finding.moves) continue;
       const first = this.run.stepAt(finding.time + 1e-6), end = finding.message.match(/the last is line (\d+)\)/);
       const last = end ? this.run.stepOfLine(finding.fileIndex, Number(end[1]), finding.time) : first;
       for (let i = first; i <= Math.max(first, last); ++i) faulty[i] = 1;
@@ -143,16 +149,22 @@ class App {
     this.show(pose);
     if (finding.line > 0) this.text.at(finding.fileIndex, finding.line);
     this.view.light(finding.bodies, finding.points);
-    const point = finding.points.length ? new THREE.Vector3(...finding.points[0]) : this.view.tip();
-    this.view.near(point, finding.bodies.length ? 700 : 1100);
+    this.lookAt(finding);
     this.list.mark(finding);
     this.headline();
   }
 
+  lookAt({time, points, bodies}) {
+    if (time === null && !bodies.length) return this.view.fit();
+    if (points.length) return this.view.near(new THREE.Vector3(...points[0]), 700);
+    const {point, size} = this.view.middleOf(bodies);
+    return this.view.near(point, Math.max(bodies.length ? 700 : 1100, 1.8 * size));
+  }
+
   goToLine(file, line) {
-    let step = this.run.stepOfLine(file, line, this.time);
-    if (step < 0) step = this.run.stepBefore(file, line);
-    if (step >= 0) this.goTo(this.run.begin[step]);
+    const step = this.run.stepOfLine(file, line, this.time);
+    const time = step >= 0 ? this.run.begin[step] : this.endBefore(file, line);
+    if (time !== null) this.goTo(time);
   }
 
   headline() {
@@ -165,16 +177,25 @@ class App {
     // In short: where it is can be seen, the axes stand below, the rest in the list.
     const short = finding.message.replace(/ at( [A-Z]-?[\d.]+)+/, '').split(';')[0];
     const clear = finding.severity === 'pass' && this.page.result.verdict === 'pass';
-    box.replaceChildren(element('b', '', (clear ? 'Nothing touches. Nearest: ' : '') + short), element('div', 'where', ''));
+    box.replaceChildren(phrase('b', '', (clear ? 'Nothing touches. Nearest: ' : '') + short), element('div', 'where', ''));
     const where = box.lastChild;
     where.append(finding.line > 0 ? `${rank} · line ${finding.line} ` : rank + ' ');
     const text = this.text.texts[finding.fileIndex];
-    if (text && finding.line > 0 && text.lines[finding.line - 1]) where.append(element('code', '', text.lines[finding.line - 1].trim().slice(0, 80)));
+    if (text && finding.line > 0 && text.lines[finding.line - 1]) where.append(phrase('code', '', text.lines[finding.line - 1].trim().slice(0, 80)));
+    if (finding.posted_from) box.append(this.origin(finding.posted_from));
     if (finding.bodies.length === 2) {
       const lit = element('div', 'lit');
       finding.bodies.forEach((name, i) => lit.append(element('span', 'chip ' + 'ab'[i], name)));
       box.append(lit);
     }
+  }
+
+  /** The record of the cutter-location file. */
+  origin({file, line}) {
+    const box = element('div', 'where', `from ${file.split('/').pop()} line ${line} `);
+    const text = this.text.texts.find((one) => one.name === file), record = text && text.lines[line - 1];
+    if (record) box.append(element('code', '', record.trim().slice(0, 80)));
+    return box;
   }
 
   stepFinding(way) {
@@ -280,7 +301,8 @@ class App {
     for (const button of document.querySelectorAll('#tabs button')) button.setAttribute('aria-selected', button.dataset.tab === name);
     this.charts.draw();
     this.text.drawn = null;
-    this.text.draw();
+    this.text.reveal();
+    this.list.mark(this.current);
   }
 
   buttons() {

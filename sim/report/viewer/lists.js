@@ -12,6 +12,13 @@ function element(tag, className, text) {
   return made;
 }
 
+/** As element(), for text with words like X-81.280, which are not to be broken at the sign. */
+function phrase(tag, className, text) {
+  const made = element(tag, className);
+  text.split(/([A-Z]+\d*=?-[\d.]+)/).forEach((part, i) => made.append(i % 2 ? element('span', 'whole', part) : part));
+  return made;
+}
+
 class FindingList {
   constructor(result, findings, nearest, go) {
     this.box = document.getElementById('findings');
@@ -41,7 +48,7 @@ class FindingList {
     const end = this.box.querySelector('.rest') || null;
     for (const finding of group.slice(from, from + SHOWN_OF_A_RULE)) {
       const item = element('button', 'item');
-      item.append(element('span', 'line', finding.line > 0 ? finding.line : ''), element('span', 'what', finding.message));
+      item.append(element('span', 'line', finding.line > 0 ? finding.line : ''), phrase('span', 'what', finding.message));
       item.addEventListener('click', () => this.go.finding(finding));
       this.items.set(finding, item);
       this.box.insertBefore(item, this.more && this.more.parentNode && from > 0 ? this.more : end);
@@ -57,7 +64,7 @@ class FindingList {
 
   addNearest(nearest) {
     const title = element('h2');
-    title.append(element('span', 'dot pass'), element('span', '', 'least clearance'), element('span', 'count', plural(nearest.length, 'pair')));
+    title.append(element('span', 'dot'), element('span', '', 'least clearance'), element('span', 'count', plural(nearest.length, 'pair')));
     this.box.append(title);
     for (const pair of nearest.slice(0, 12)) {
       const item = element('button', 'item');
@@ -73,7 +80,7 @@ class FindingList {
       const title = element('h2', 'rest');
       title.append(element('span', '', 'assumed'), element('span', 'count', result.assumptions.length));
       this.box.append(title);
-      for (const one of result.assumptions) this.box.append(element('p', '', `${one.name}: ${one.text}`));
+      for (const one of result.assumptions) this.box.append(phrase('p', '', `${one.name}: ${one.text}`));
     }
     if (result.not_checked.length) this.box.append(element('p', 'fine', 'Not checked: ' + result.not_checked.join(', ')));
   }
@@ -145,8 +152,14 @@ class ProgramText {
     if (this.now.file === file && this.now.line === line) return;
     this.now = {file, line};
     if (file !== this.file && file < this.texts.length) this.open(file);
-    const top = (line - 1) * ROW, {scrollTop, clientHeight} = this.box;
-    if (top < scrollTop + ROW || top > scrollTop + clientHeight - 3 * ROW) this.box.scrollTop = Math.max(0, top - clientHeight / 2);
+    this.reveal();
+  }
+
+  /** What is hidden does not scroll: on a narrow page this is asked for when the text comes up. */
+  reveal() {
+    const top = (this.now.line - 1) * ROW, {scrollTop, clientHeight} = this.box;
+    const out = top < scrollTop + ROW || top > scrollTop + clientHeight - 3 * ROW;
+    if (this.now.file === this.file && out) this.box.scrollTop = Math.max(0, top - clientHeight / 2);
     this.draw();
   }
 }

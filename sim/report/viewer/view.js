@@ -250,6 +250,7 @@ class View {
 
   lookAt(point, distance) {
     this.target.copy(point);
+    this.resize();
     // On a narrow page as much is to be seen.
     this.turn.distance = distance * Math.max(1, 1.1 / this.camera.aspect);
     this.changed = true;
@@ -259,6 +260,16 @@ class View {
     const box = new THREE.Box3();
     for (const body of this.bodies) if (filter(body)) box.expandByObject(body.group);
     return box;
+  }
+
+  /** Where bodies are of which no point is told: at the tip, where one is of the tool; else where the smallest is. */
+  middleOf(names) {
+    const told = this.bodies.filter((body) => names.some((name) => this.matches(body, name)));
+    if (!told.length || told.some((body) => body.tool > 0)) return {point: this.tip(), size: 0};
+    const boxes = told.map((body) => new THREE.Box3().setFromObject(body.group));
+    const size = (box) => box.getSize(new THREE.Vector3()).length();
+    boxes.sort((a, b) => size(a) - size(b));
+    return {point: boxes[0].getCenter(new THREE.Vector3()), size: size(boxes[0])};
   }
 
   fit() {
