@@ -202,7 +202,8 @@ class PairSweep {
     std::size_t end;
     double clearance;
   };
-  std::vector<Seen> ahead_seen_;  // of the travel at hand, the nearest last
+  const motion::PairTravel* crossed_ = nullptr;  // whose motions these number
+  std::vector<Seen> ahead_seen_;                 // the nearest last
   struct Stretched {
     std::size_t end = 0;
     int grid = 0;

@@ -179,6 +179,11 @@ PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::Pai
 PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion::PairTravel& bound,
                                      std::size_t begin, const Watch& watch) {
   Crossing crossing{begin, std::numeric_limits<double>::infinity()};
+  if (crossed_ != &bound) {
+    ahead_seen_.clear();
+    stretches_.clear();
+    crossed_ = &bound;
+  }
   if (ahead_ <= 0.0) ahead_ = engine_->Budget(Need(watch));
   const bool stands = known_.outside && SamePose(known_.q, travel[begin].q0());
   std::optional<Step> step;
