@@ -361,6 +361,12 @@ TEST(FiveAxisTest, RadiiAreTheDistancesInTheTree) {
     five_axis.TipInTable(q, length, &p_BT_B, &u_B);
     const auto tip_radii = five_axis.TipRadii(p_BT_B, length, q);
     const auto radii = five_axis.RadiiAboutTip(v_S, q);
+    const FiveAxis::ToolPose pose = five_axis.ToolInTable(q, length);
+    const auto about_tip = five_axis.RadiiAboutTip(Eigen::Vector3d::UnitZ(), q);
+    const Eigen::Isometry3d X_BS = five_axis.SpindleInTable(q);
+    EXPECT_LE((pose.tip - X_BS * Eigen::Vector3d(0.0, 0.0, length)).norm(), 1e-9);
+    EXPECT_LE((pose.axis + X_BS.linear().col(2)).norm(), 1e-12);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(pose.radii[k], about_tip[k], 1e-12);
     const Eigen::Matrix3d R_MS = machine.tree.Pose(machine.spindle_link, q).linear();
     for (std::size_t k = 0; k < 2; ++k) {
       Eigen::Vector3d axis_M;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "sim/motion/test_motions.h"
@@ -51,6 +53,32 @@ std::vector<JointVector> Poses(const Motion& motion) {
   return poses;
 }
 
+// What the totals know of motion i: where it starts and ends, how far it gets from its middle, and
+// its straight way.
+template <class Moved>
+void HoldOne(const Motion& motion, const PairPath& pair, const PairTravel& bound, std::size_t i,
+             const Moved& moved) {
+  ASSERT_LE(moved(bound.Pose(i), pair.path.Pose(motion.q0())), 1e-6);
+  ASSERT_LE(moved(bound.Pose(i + 1), pair.path.Pose(motion.q1())), 1e-6);
+  const Span whole = Whole(motion);
+  const Eigen::Isometry3d X_middle =
+      pair.path.Pose(motion.At(0.5, 0.5 * (whole.lag0 + whole.lag1)));
+  const std::optional<Translation> straight = bound.TranslationOf(i);
+  for (const JointVector& q : Poses(motion)) {
+    const Eigen::Isometry3d X = pair.path.Pose(q);
+    ASSERT_LE(moved(X_middle, X), bound.AboutMiddle(i) + 1e-6);
+    if (!straight.has_value()) continue;
+    constexpr int kPlaces = 64;
+    double astray = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= kPlaces; ++k) {
+      Eigen::Isometry3d X_way = straight->X_BA;
+      X_way.translation() += (static_cast<double>(k) / kPlaces) * straight->way;
+      astray = std::min(astray, moved(X_way, X));
+    }
+    ASSERT_LE(astray, straight->astray + straight->way.norm() / (2 * kPlaces) + 1e-6);
+  }
+}
+
 // For all stretches of a run: no pose of theirs is further from either of their ends than
 // PairTravel says. `moved` measures between two X_BA.
 template <class Moved>
@@ -68,6 +96,10 @@ void Hold(const std::vector<Motion>& motions, const PairPath& pair, const Travel
         ASSERT_LE(moved(X_end, pair.path.Pose(q)), bound.Between(i, j));
       }
     }
+  }
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    HoldOne(motions[i], pair, bound, i, moved);
+    if (::testing::Test::HasFatalFailure()) return;
   }
   for (std::size_t level = 0; level < travel.levels(); ++level) {
     for (std::size_t i = 0; i < motions.size(); ++i) {
