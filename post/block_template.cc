@@ -2,7 +2,6 @@
 #include "post/block_template.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "sim/base/text.h"

@@ -2,7 +2,6 @@
 #include "post/cl_arguments.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "sim/base/text.h"

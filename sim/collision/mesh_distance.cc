@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/base/units.h"
 #include "sim/collision/triangle_pair.h"

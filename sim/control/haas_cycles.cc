@@ -11,7 +11,6 @@
 #include "sim/control/pocket_cycles.h"
 
 namespace ncsim::control {
-namespace {}  // namespace
 
 bool HaasInterpreter::pattern() const {
   if (non_modal_ == nullptr) return false;

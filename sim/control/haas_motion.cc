@@ -9,7 +9,6 @@
 #include "sim/control/limits.h"
 
 namespace ncsim::control {
-namespace {}  // namespace
 
 bool HaasInterpreter::ExecuteNonModal() {
   if (CodeOf(kGroupNonModal) != nullptr && !Dwell()) return false;

@@ -15,7 +15,6 @@ inline constexpr double kMaxWord = 1e9;
 inline constexpr double kLengthTolerance = 0.5;
 /// Beyond this a count of holes or repeats is a mistake, and must not run for hours.
 inline constexpr int kMaxHoleRepeats = 10'000;
-
 /// SINUMERIK MD18105, MD18106: standard values.
 inline constexpr int kMaxEdge = 12;
 

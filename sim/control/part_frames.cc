@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/control/part_frames.h"
 
-#include <array>
-
 #include "sim/base/diagnostics.h"
 #include "sim/control/frames.h"
 #include "sim/machine/scene.h"
 
 namespace ncsim::control {
-namespace {}  // namespace
 
 AxisValues GaugeAtMount(const machine::Machine& machine) {
   if (!machine.five_axis) return {};

@@ -2,7 +2,6 @@
 #include "sim/control/tool_change.h"
 
 #include <string>
-#include <string_view>
 
 #include "sim/base/text.h"
 
