@@ -154,6 +154,7 @@ class PairSweep {
   std::optional<Interval> Look(const motion::Motion& motion, const Eigen::Isometry3d& X_BA,
                                const Watch& watch, double enough);
   std::optional<double> PassAtOnce(Sweep* sweep);
+  std::optional<double> PassInBox(const Sweep& sweep, double need);
   /// A step of a Crossing: to `end`, clear by `least` all the way and by `clearance` there.
   struct Step {
     std::size_t end = 0;
@@ -170,7 +171,7 @@ class PairSweep {
               const Watch& watch);
   std::optional<double> Recall(const motion::PairTravel::Neighbourhood& around) const;
   std::optional<double> Explore(const motion::PairTravel& bound,
-                                const motion::PairTravel::Neighbourhood& around, double enough);
+                                const motion::PairTravel::Neighbourhood& around, double enough, double beyond);
   const motion::PairTravel::Neighbourhood& Stretch(const motion::PairTravel& bound, std::size_t at,
                                                    std::size_t level, int grid);
   Step Around(const motion::PairTravel& bound, std::size_t at, std::size_t path_end,

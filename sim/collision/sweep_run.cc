@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMemory = 20000;  // poses of a pair
 constexpr double kFarthest = 1e5;       // mm, worth looking ahead
 constexpr double kOfAhead = 0.9;        // neighbourhoods up to this part of it are looked at
+constexpr double kBeyond = 0.25;        // of what is asked for ahead, around a pose
 constexpr double kStart = 0.02;         // mm, of clearance at a start that is near anyway
 // How closely a clearance is worked out, in parts of what it is beyond the need: less takes longer.
 constexpr double kGapOfSpare = 0.4;
@@ -72,7 +73,7 @@ std::optional<PairSweep::Step> PairSweep::Settle(const motion::PairTravel& bound
     const motion::PairTravel::Neighbourhood& around = Stretch(bound, at, level, grid);
     if (around.radius >= kOfAhead * ahead_) continue;
     const double enough = Spared(watch) + around.radius;
-    const std::optional<double> clearance = Explore(bound, around, enough);
+    const std::optional<double> clearance = Explore(bound, around, enough, kBeyond * ahead_);
     if (!clearance.has_value() || *clearance <= enough ||
         engine_->Contained(bound.PoseOf(around))) {
       break;
@@ -99,10 +100,10 @@ std::optional<double> PairSweep::Recall(const motion::PairTravel::Neighbourhood&
 
 std::optional<double> PairSweep::Explore(const motion::PairTravel& bound,
                                          const motion::PairTravel::Neighbourhood& around,
-                                         double enough) {
+                                         double enough, double beyond) {
   DistanceGoal goal;
   goal.relative_gap = engine_->has_depth() ? kGapAround : kGapOfMeshes;
-  goal.stop_above = enough + 0.25 * ahead_;
+  goal.stop_above = enough + beyond;
   if (!around.key.has_value()) goal.stop_below = enough;
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(bound.PoseOf(around), goal);
@@ -139,7 +140,7 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
     if ((!clearance.has_value() || *clearance <= enough) && around.radius < kOfAhead * ahead_ &&
         !explored) {
       explored = true;
-      clearance = Explore(bound, around, enough);
+      clearance = Explore(bound, around, enough, kBeyond * ahead_);
     }
     if (clearance.has_value() && *clearance > enough) {
       around_.Helped();

@@ -28,7 +28,9 @@ struct Measures {
 Measures OfTcp(const TcpCurve& curve) {
   const kinematics::FiveAxis& control = curve.frame->control;
   // Within half the way of the middle, so within twice that of an end.
-  const TcpReach reach = Reach(curve, RotaryAt(curve, 0.5), 0.5, 0.5);
+  const JointVector middle =
+      curve.great_circle == nullptr ? 0.5 * (curve.q0 + curve.q1) : RotaryAt(curve, 0.5);
+  const TcpReach reach = Reach(curve, middle, 0.5, 0.5);
   Measures measures;
   measures.joints = 2.0 * reach.deviation;
   double squares = 0.0;
@@ -46,9 +48,13 @@ Measures OfTcp(const TcpCurve& curve) {
 }
 
 Measures OfJoints(const Motion& motion, const kinematics::KinematicTree& tree) {
-  const JointBox box = Box(motion, Whole(motion));
   Measures measures;
-  measures.joints = box.upper - box.lower;
+  if (std::holds_alternative<AxisArc>(motion.path)) {
+    const JointBox box = Box(motion, Whole(motion));
+    measures.joints = box.upper - box.lower;
+  } else {
+    measures.joints = (motion.q1() - motion.q0()).cwiseAbs();  // each axis goes one way
+  }
   double squares = 0.0;
   for (Eigen::Index i = 0; i < measures.joints.size(); ++i) {
     const auto joint = static_cast<std::size_t>(tree.moving_joints()[static_cast<std::size_t>(i)]);
@@ -163,10 +169,9 @@ void Travel::AddMiddle(const Motion& motion) {
   middle_of_.push_back(-1);
   if (!std::holds_alternative<DogLeg>(motion.path)) return;
   middle_of_.back() = static_cast<int>(middles_.size());
-  const Span whole = Whole(motion);
-  const JointVector q = motion.At(0.5, 0.5 * (whole.lag0 + whole.lag1));
-  const JointBox box = motion::Box(motion, whole);
-  middles_.push_back({q, (box.upper - q).cwiseMax(q - box.lower).cwiseMax(0.0)});
+  // Each axis goes one way.
+  middles_.push_back(
+      {0.5 * (motion.q0() + motion.q1()), (0.5 * (motion.q1() - motion.q0())).cwiseAbs()});
 }
 
 void Travel::AddSums(std::size_t i, const JointVector& joints, double linear, double tip,
@@ -270,7 +275,7 @@ PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, i
 }
 
 Eigen::Isometry3d PairTravel::PoseOf(const Neighbourhood& around) const {
-  return by_tip() ? PoseOf(around.tip, around.axis) : pair_->path.Pose(around.q);
+  return around.q.size() > 0 ? pair_->path.Pose(around.q) : PoseOf(around.tip, around.axis);
 }
 
 // Of a solid of revolution: any turn about its axis will do.
@@ -300,26 +305,34 @@ std::optional<Translation> PairTravel::TranslationOf(std::size_t i) const {
   return result;
 }
 
-double PairTravel::AboutMiddle(std::size_t i) const {
-  const Motion& motion = (*travel_)[i];
+std::optional<PairTravel::Neighbourhood> PairTravel::AroundDogLeg(std::size_t i) const {
   const Travel::Middle* middle = travel_->middle(i);
-  if (middle != nullptr) return pair_->path.Bound(middle->q, pair_->a, middle->deviation);
-  const Span whole = Whole(motion);
-  return RelativeBound(motion, *pair_, whole, 0.5, 0.5 * (whole.lag0 + whole.lag1));
+  if (middle == nullptr) return std::nullopt;
+  Neighbourhood around;
+  around.radius = kSumError + pair_->path.Bound(middle->q, pair_->a, middle->deviation);
+  around.end = i + 1;
+  around.q = middle->q;
+  return around;
 }
 
-// The totals only grow: strides that double, then halves.
+// The totals only grow: strides that double, then halves of what is left.
 std::size_t PairTravel::Furthest(std::size_t i, double limit) const {
   const std::size_t size = travel_->size();
+  if (limit <= 0.0) return i;
   if (Between(i, size) < limit) return size;
   std::size_t low = i;
-  std::size_t stride = 1;
-  while (low + stride <= size && Between(i, low + stride) < limit) {
-    low += stride;
-    stride *= 2;
+  std::size_t high = size;  // not below the limit
+  for (std::size_t stride = 1; low + stride < high; stride *= 2) {
+    if (Between(i, low + stride) < limit) {
+      low += stride;
+    } else {
+      high = low + stride;
+      break;
+    }
   }
-  for (; stride > 0; stride /= 2) {
-    if (low + stride <= size && Between(i, low + stride) < limit) low += stride;
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (Between(i, middle) < limit ? low : high) = middle;
   }
   return low;
 }

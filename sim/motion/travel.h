@@ -45,7 +45,8 @@ class Travel {
   /// Tip and axis of the tool in the table's frame where motion i starts; or, of size(), where the
   /// last one ends.
   const kinematics::FiveAxis::ToolPose& tool(std::size_t i) const { return tools_[i]; }
-  /// Of a dog-leg: the joints in its middle, and how far from there each of them gets.
+  /// Of a dog-leg: where all of its joints are at half of their ways, and half of each way. No pose
+  /// of it need be there.
   struct Middle {
     JointVector q, deviation;
   };
@@ -94,9 +95,6 @@ class PairTravel {
   Eigen::Isometry3d Pose(std::size_t i) const;
   /// As motion::TranslationOf.
   std::optional<Translation> TranslationOf(std::size_t i) const;
-  /// RelativeBound over the whole of motion i, from its middle.
-  double AboutMiddle(std::size_t i) const;
-
   /// A pose on a grid that is the same for all runs; `key` numbers its places.
   using GridKey = std::array<int, 7>;
   /// A pose, and how far from it any point of A is at any pose of the motions up to `end`.
@@ -104,9 +102,9 @@ class PairTravel {
     double radius = 0.0;  ///< mm
     std::size_t end = 0;
     std::optional<GridKey> key;  ///< For pairs whose poses a program comes back to.
-    /// The pose: tip and axis of the tool in the table's frame, or joints.
-    Eigen::Vector3d tip, axis;
+    /// The pose: joints or, where there are none, tip and axis of the tool in the table's frame.
     JointVector q;
+    Eigen::Vector3d tip, axis;
   };
   /// X_BA.
   Eigen::Isometry3d PoseOf(const Neighbourhood& around) const;
@@ -114,6 +112,8 @@ class PairTravel {
   std::size_t StretchEnd(std::size_t i, std::size_t level) const;
   /// Of the stretch of `level` that motion i is in. `grid`: the spacing of the grid is 2^grid mm.
   Neighbourhood Around(std::size_t i, std::size_t level, int grid) const;
+  /// Of motion i alone, where it is a dog-leg.
+  std::optional<Neighbourhood> AroundDogLeg(std::size_t i) const;
   std::size_t levels() const { return travel_->levels(); }
 
  private:
