@@ -204,8 +204,24 @@ TEST_F(SmallNightTest, NothingToMergeIsBadInput) {
   EXPECT_EQ(Run("out").code, 3);
 }
 
+/// The system's temporary folder for a while.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const fs::path& path) : before_(fs::temp_directory_path()) {
+    fs::create_directory(path);
+    setenv("TMPDIR", path.c_str(), 1);
+  }
+  ~TemporaryFolder() { setenv("TMPDIR", before_.c_str(), 1); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+ private:
+  fs::path before_;
+};
+
 // The program as a batch system runs and kills it.
 TEST_F(NightlyTest, AKilledShardLeavesNothingHalf) {
+  const TemporaryFolder temporary(root_ / "tmp");
   const std::string out = (root_ / "out").string();
   const std::string log = (root_ / "log").string();
   const int err = open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
@@ -220,6 +236,10 @@ TEST_F(NightlyTest, AKilledShardLeavesNothingHalf) {
   waitpid(pid, &status, 0);
   ASSERT_TRUE(WIFSIGNALED(status));
   EXPECT_TRUE(fs::is_empty(root_ / "out/shards"));
+  ASSERT_FALSE(fs::is_empty(root_ / "tmp"));
+  options_.what = (root_ / "parts/broken").string();
+  Run("out");
+  EXPECT_TRUE(fs::is_empty(root_ / "tmp")) << "the next night clears up";
 }
 
 }  // namespace
