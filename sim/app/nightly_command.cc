@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <functional>
@@ -22,6 +21,7 @@
 #include "sim/collision/threads.h"
 #include "sim/nightly/night.h"
 #include "sim/nightly/runner.h"
+#include "sim/nightly/scratch.h"
 
 namespace ncsim::app {
 namespace {
@@ -124,15 +124,17 @@ class NightlyRun {
   /// nullopt (said) where there is nowhere to work in.
   std::optional<std::vector<Result>> Check(const std::vector<Entry>& entries) {
     std::error_code error;
-    std::string scratch = (fs::temp_directory_path(error) / "ncsim-nightly-XXXXXX").string();
-    if (error || mkdtemp(scratch.data()) == nullptr) {
-      Complain(scratch, "cannot be made");
+    const std::string folder = fs::temp_directory_path(error).string();
+    std::string reason = error.message();
+    const auto scratch = error ? nullptr : nightly::Scratch::Make(folder, &reason);
+    if (scratch == nullptr) {
+      Complain(folder, "there is no folder to work in: " + reason);
       return std::nullopt;
     }
     nightly::RunOptions run{executable_,
                             build_,
                             manifest_.root,
-                            scratch,
+                            scratch->path(),
                             options_.jobs,
                             0,
                             options_.reports ? PagesFolder() : ""};

@@ -164,7 +164,6 @@ std::vector<Result> RunChecks(const std::vector<Entry>& entries, const RunOption
       open.push_back(i);
     }
   }
-  fs::create_directories(options.scratch);
   const Runner runner(options);
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
@@ -180,8 +179,6 @@ std::vector<Result> RunChecks(const std::vector<Entry>& entries, const RunOption
     for (int i = 1; i < options.jobs; ++i) pool.emplace_back(work);
     work();
   }
-  std::error_code error;
-  fs::remove_all(options.scratch, error);
   return results;
 }
 

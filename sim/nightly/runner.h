@@ -16,7 +16,7 @@ struct RunOptions {
   std::string executable;  ///< That does `check`; an absolute path.
   std::string build;       ///< Names the executable's contents, and where it and the root lie.
   std::string root;        ///< Manifest::root.
-  std::string scratch;     ///< An absolute path of a folder, made and removed again.
+  std::string scratch;     ///< An absolute path of a folder that is there, empty again afterwards.
   int jobs = 1;            ///< Checks at a time.
   int threads = 0;         ///< Of each check; 0: as it likes.
   std::string pages;       ///< Folder for a page of each result (PageName); "" for none.

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/bench/child_process.h"
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <thread>
+
+#include "tests/support/start_child.h"
 
 namespace ncsim::bench {
 namespace {
@@ -35,19 +34,9 @@ double Seconds(const timeval& time) {
 
 ChildRun RunChild(const std::vector<std::string>& command) {
   ChildRun run;
-  std::vector<std::string> words = command;
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  pid_t pid = 0;
   const auto begin = std::chrono::steady_clock::now();
-  const int failed = posix_spawn(&pid, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return run;
+  const pid_t pid = StartChild(command);
+  if (pid < 0) return run;
   rusage usage{};
   int status = 0;
   while (wait4(pid, &status, WNOHANG, &usage) == 0) {

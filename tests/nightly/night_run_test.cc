@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 #include <string>
 
 #include "tests/nightly/night_rig.h"
+#include "tests/support/start_child.h"
 
 namespace {
 
@@ -204,27 +204,42 @@ TEST_F(SmallNightTest, NothingToMergeIsBadInput) {
   EXPECT_EQ(Run("out").code, 3);
 }
 
+/// The system's temporary folder for a while.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const fs::path& path) : before_(fs::temp_directory_path()) {
+    fs::create_directory(path);
+    setenv("TMPDIR", path.c_str(), 1);
+  }
+  ~TemporaryFolder() { setenv("TMPDIR", before_.c_str(), 1); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+ private:
+  fs::path before_;
+};
+
 // The program as a batch system runs and kills it.
 TEST_F(NightlyTest, AKilledShardLeavesNothingHalf) {
+  const TemporaryFolder temporary(root_ / "tmp");
   const std::string out = (root_ / "out").string();
   const std::string log = (root_ / "log").string();
-  std::vector<std::string> words = {NCSIM_PROGRAM, "nightly", options_.what, "--shard", "0/1",
-                                    "--out",       out};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT, 0666);
-  pid_t pid = 0;
-  ASSERT_EQ(posix_spawn(&pid, NCSIM_PROGRAM, &actions, nullptr, arguments.data(), environ), 0);
-  posix_spawn_file_actions_destroy(&actions);
+  const int err = open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  const pid_t pid =
+      StartChild({NCSIM_PROGRAM, "nightly", options_.what, "--shard", "0/1", "--out", out},
+                 {{STDERR_FILENO, err}});
+  close(err);
+  ASSERT_GT(pid, 0);
   while (ReadText(log).find("[5/") == std::string::npos && kill(pid, 0) == 0) usleep(2000);
   kill(pid, SIGKILL);
   int status = 0;
   waitpid(pid, &status, 0);
   ASSERT_TRUE(WIFSIGNALED(status));
   EXPECT_TRUE(fs::is_empty(root_ / "out/shards"));
+  ASSERT_FALSE(fs::is_empty(root_ / "tmp"));
+  options_.what = (root_ / "parts/broken").string();
+  Run("out");
+  EXPECT_TRUE(fs::is_empty(root_ / "tmp")) << "the next night clears up";
 }
 
 }  // namespace

@@ -4,12 +4,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <stdexcept>
+
+#include "tests/support/start_child.h"
 
 namespace ncsim::report {
 namespace {
@@ -53,36 +54,23 @@ Browser::Browser() {
   static int browsers = 0;
   profile_ = fs::temp_directory_path() /
              ("ncsim_browser_" + std::to_string(getpid()) + "_" + std::to_string(++browsers));
-  std::vector<std::string> words = {Find(),
-                                    "--headless=new",
-                                    "--no-sandbox",
-                                    "--no-first-run",
-                                    "--disable-extensions",
-                                    "--disable-background-networking",
-                                    "--use-angle=swiftshader",
-                                    "--enable-unsafe-swiftshader",
-                                    "--remote-debugging-pipe",
-                                    "--user-data-dir=" + profile_.string(),
-                                    "about:blank"};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  // It reads commands from 3 and answers on 4; by way of numbers that are neither.
-  const int in = fcntl(commands[0], F_DUPFD_CLOEXEC, 10);
-  const int out = fcntl(answers[1], F_DUPFD_CLOEXEC, 10);
-  posix_spawn_file_actions_adddup2(&actions, in, 3);
-  posix_spawn_file_actions_adddup2(&actions, out, 4);
-  const int failed =
-      posix_spawn(&process_, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  for (const int fd : {commands[0], answers[1], in, out}) close(fd);
+  const std::vector<std::string> words = {Find(),
+                                          "--headless=new",
+                                          "--no-sandbox",
+                                          "--no-first-run",
+                                          "--disable-extensions",
+                                          "--disable-background-networking",
+                                          "--use-angle=swiftshader",
+                                          "--enable-unsafe-swiftshader",
+                                          "--remote-debugging-pipe",
+                                          "--user-data-dir=" + profile_.string(),
+                                          "about:blank"};
+  // It reads commands from 3 and answers on 4.
+  process_ = StartChild(words, {{3, commands[0]}, {4, answers[1]}});
+  for (const int fd : {commands[0], answers[1]}) close(fd);
   to_ = commands[1];
   from_ = answers[0];
-  if (failed != 0) throw std::runtime_error("the browser does not start");
+  if (process_ < 0) throw std::runtime_error("the browser does not start");
   const Json target = Send("Target.createTarget", {{"url", "about:blank"}});
   const Json attached =
       Send("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}});

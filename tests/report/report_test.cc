@@ -19,6 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr double kMayCover = 0.25;  // of the view, by the headline
 constexpr const char* kReady = "window.ncsim && ncsim.path.ready";
 
 class ReportPage : public ::testing::Test {
@@ -35,6 +36,23 @@ class ReportPage : public ::testing::Test {
   void Open(const ShownRun& run, int width, const std::string& scheme = "light") {
     ASSERT_TRUE(std::filesystem::exists(run.html())) << run.messages();
     browser_->Open(run.html(), width, 800, scheme, kReady);
+    EXPECT_LT(Covered(), kMayCover) << width;
+  }
+
+  /// Share of the 3-D view that lies below the headline.
+  static double Covered() {
+    return browser_->Evaluate(
+        "(() => { const box = (id) => document.getElementById(id).getBoundingClientRect(), "
+        "v = box('canvas'), h = box('headline'), over = (from, to) => Math.max(0, "
+        "Math.min(v[to], h[to]) - Math.max(v[from], h[from])); "
+        "return over('left', 'right') * over('top', 'bottom') / (v.width * v.height); })()");
+  }
+
+  /// Whether all text of the headline that matches is there whole: not hidden, not cut.
+  static bool IsWhole(const std::string& selector) {
+    return browser_->Evaluate("[...document.querySelectorAll('#headline " + selector +
+                              "')].every((e) => e.offsetParent && e.scrollHeight <= "
+                              "e.clientHeight && e.scrollWidth <= e.clientWidth)");
   }
 
   /// Axis letters and values that an expression in the page has.
@@ -253,6 +271,35 @@ TEST_F(ReportPage, ATabComesUpWithWhatIsAtWork) {
   ExpectNoComplaint();
 }
 
+TEST_F(ReportPage, ALongHeadlineLeavesANarrowViewFree) {
+  const ShownRun run(ScenePath("crash_gallery/uncertified.mpf"));
+  for (const char* scheme : {"light", "dark"}) {
+    Open(run, 1280, scheme);
+    EXPECT_TRUE(IsWhole("b")) << "there is room";
+    Open(run, 400, scheme);
+    EXPECT_FALSE(IsWhole("b")) << "the test must be able to fail";
+    EXPECT_EQ(browser_->Evaluate("document.querySelector('#headline .lit').innerText"),
+              "T1.holder\njaw");
+    ClickOn("#headline");
+    EXPECT_TRUE(IsWhole("b"));
+    EXPECT_TRUE(IsWhole(".where"));
+    ClickOn("#headline");
+    EXPECT_FALSE(IsWhole("b"));
+    // Of any length: it stays within the view, and its end may be scrolled to.
+    browser_->Evaluate("ncsim.current.message = 'more '.repeat(500), ncsim.headline()");
+    EXPECT_LT(Covered(), kMayCover);
+    ClickOn("#headline .more");
+    EXPECT_TRUE(IsWhole("b"));
+    EXPECT_EQ(browser_->Evaluate(
+                  "(() => { const box = document.getElementById('headline'), rect = (e) => "
+                  "e.getBoundingClientRect(); box.scrollTop = 1e6; return rect(box).bottom < "
+                  "rect(document.getElementById('canvas')).bottom && "
+                  "rect(box.querySelector('.lit')).bottom < rect(box).bottom; })()"),
+              true);
+  }
+  ExpectNoComplaint();
+}
+
 // A line that cannot be read, a body that cannot be checked, an offset that nobody states.
 TEST_F(ReportPage, WhatIsNoMotionIsShownToo) {
   const ShownRun syntax(ScenePath("crash_gallery/syntax.nc"));
@@ -295,6 +342,10 @@ TEST_F(ReportPage, AFindingShowsTheRecordItWasPostedFrom) {
   for (int i = 0; i < from.at("line"); ++i) std::getline(cl, record);
   EXPECT_EQ(browser_->Evaluate("document.querySelectorAll('#headline .where')[1].textContent"),
             "from hub.cls line " + std::to_string(from.at("line").get<int>()) + " " + record);
+  Open(run, 400);
+  EXPECT_FALSE(IsWhole(".where"));
+  ClickOn("#headline");
+  EXPECT_TRUE(IsWhole(".where"));
   ExpectNoComplaint();
 }
 

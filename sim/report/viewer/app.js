@@ -175,7 +175,7 @@ class App {
     const all = this.findings.filter((f) => f.severity === finding.severity), at = all.indexOf(finding) + 1;
     const rank = at ? `${finding.severity} ${at} of ${all.length}` : 'nearest';
     // In short: where it is can be seen, the axes stand below, the rest in the list.
-    const short = finding.message.replace(/ at( [A-Z]-?[\d.]+)+/, '').split(';')[0];
+    const short = finding.message.replace(/,? at( [A-Z]-?[\d.]+)+/, '').split(';')[0];
     const clear = finding.severity === 'pass' && this.page.result.verdict === 'pass';
     box.replaceChildren(phrase('b', '', (clear ? 'Nothing touches. Nearest: ' : '') + short), element('div', 'where', ''));
     const where = box.lastChild;
@@ -188,6 +188,16 @@ class App {
       finding.bodies.forEach((name, i) => lit.append(element('span', 'chip ' + 'ab'[i], name)));
       box.append(lit);
     }
+    const more = element('button', 'more', '▾');
+    more.setAttribute('aria-label', 'Whole text');
+    more.setAttribute('aria-expanded', false);
+    box.append(more);
+  }
+
+  /** On a narrow page the headline is short until it is tapped. */
+  unfold() {
+    const box = byId('headline');
+    box.lastChild.setAttribute('aria-expanded', box.classList.toggle('open'));
   }
 
   /** The record of the cutter-location file. */
@@ -307,6 +317,7 @@ class App {
 
   buttons() {
     const on = (id, act) => byId(id).addEventListener('click', act);
+    on('headline', () => this.unfold());
     on('play', () => this.play());
     on('toprev', () => this.stepFinding(-1));
     on('tonext', () => this.stepFinding(1));
