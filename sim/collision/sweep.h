@@ -171,11 +171,13 @@ class PairSweep {
               const Watch& watch);
   std::optional<double> Recall(const motion::PairTravel::Neighbourhood& around) const;
   std::optional<double> Explore(const motion::PairTravel& bound,
-                                const motion::PairTravel::Neighbourhood& around, double enough, double beyond);
+                                const motion::PairTravel::Neighbourhood& around, double enough,
+                                double beyond);
   const motion::PairTravel::Neighbourhood& Stretch(const motion::PairTravel& bound, std::size_t at,
                                                    std::size_t level, int grid);
   Step Around(const motion::PairTravel& bound, std::size_t at, std::size_t path_end,
               const Watch& watch);
+  Step Backward(const motion::PairTravel& bound, std::size_t at, Step seen, bool even) const;
   Step Ahead(const motion::Travel& travel, const motion::PairTravel& bound, std::size_t at,
              const Watch& watch);
   bool Start(Sweep* sweep);

@@ -153,20 +153,23 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
   return {at, 0.0, 0.0};
 }
 
-// The motions from `at` on that a look at the end of one of them covers backward. Where that leaves
-// a gap, it is looked into the middle of it: what was seen beyond is kept, and serves later.
+// The motions from `at` on that a look at the end of one of them covers backward, with what is left
+// of the clearance at `at`. Where that leaves a gap, it is looked into the middle of it: what was
+// seen beyond is kept, and serves later.
 PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::PairTravel& bound,
                                  std::size_t at, const Watch& watch) {
   for (;;) {
-    std::size_t next = bound.Furthest(at, ahead_);
+    const double left = bound.Even(at) ? std::max(0.0, known_.clearance - Spared(watch)) : 0.0;
+    std::size_t next = bound.Furthest(at, ahead_ + left);
     if (!ahead_seen_.empty()) {
       const auto [end, clearance] = ahead_seen_.back();
-      const double left = clearance - bound.Between(at, end);
-      if (left > Spared(watch)) {
+      const Step step = Backward(bound, at, {end, 0.0, clearance}, left > 0.0);
+      if (step.least > Spared(watch)) {
         ahead_seen_.pop_back();
-        return {end, left, clearance};
+        return step;
       }
-      const std::size_t middle = bound.Furthest(at, 0.5 * (Spared(watch) - left));
+      const double gap = bound.Between(at, end) - left - (clearance - Spared(watch));
+      const std::size_t middle = bound.Furthest(at, 0.5 * gap);
       next = std::min({next, std::max(middle, at + 1), end - 1});
     }
     if (next == at) return {at, 0.0, 0.0};
@@ -175,6 +178,20 @@ PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::Pai
     if (!clearance.has_value()) return {at, 0.0, 0.0};
     ahead_seen_.push_back({next, clearance->lower});
   }
+}
+
+// What `seen.clearance` says of the motions from `at` to `seen.end`. Where the first of them is
+// even, its poses are near to one of its ends, or as far from the one as they may be from the
+// other.
+PairSweep::Step PairSweep::Backward(const motion::PairTravel& bound, std::size_t at, Step seen,
+                                    bool even) const {
+  const double whole = seen.clearance - bound.Between(at, seen.end);
+  seen.least = whole;
+  if (even) {
+    const double behind = seen.clearance - bound.Between(at + 1, seen.end);
+    seen.least = std::max(whole, std::min(0.5 * (known_.clearance + whole), behind));
+  }
+  return seen;
 }
 
 PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion::PairTravel& bound,

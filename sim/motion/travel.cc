@@ -17,13 +17,22 @@ constexpr double kSumError = 1e-6;
 /// Of a turn on the grid, mm: any will do, one near the size of a machine's links does well.
 constexpr double kGridRadius = 256.0;
 
+/// Turns up to here count as even, rad: their arcs are longer than their chords by less than 1 in
+/// 2000.
+constexpr double kEvenTurn = 0.1;
+
 /// The measures of one motion.
 struct Measures {
   JointVector joints;
   double linear = 0.0;
   double tip = 0.0;
   double axis = 0.0;
+  Travel::Evenness even;
 };
+
+double ChordOrArc(double turn, const Measures& measures) {
+  return measures.even.tip ? turn : kinematics::Chord(turn);
+}
 
 Measures OfTcp(const TcpCurve& curve) {
   const kinematics::FiveAxis& control = curve.frame->control;
@@ -40,9 +49,13 @@ Measures OfTcp(const TcpCurve& curve) {
   if (control.linear_square()) {
     measures.linear = std::min(measures.linear, 2.0 * reach.linear_distance);
   }
+  const auto& rotary = control.rotary();
+  measures.even.tip = !curve.arc && curve.great_circle == nullptr &&
+                      std::all_of(rotary.begin(), rotary.end(),
+                                  [&](int joint) { return measures.joints[joint] <= kEvenTurn; });
   measures.tip = TipTravel(curve, 1.0);
-  for (const int joint : control.rotary()) {
-    measures.tip += kinematics::Chord(measures.joints[joint]) * curve.frame->centre_error;
+  for (const int joint : rotary) {
+    measures.tip += ChordOrArc(measures.joints[joint], measures) * curve.frame->centre_error;
   }
   return measures;
 }
@@ -62,6 +75,7 @@ Measures OfJoints(const Motion& motion, const kinematics::KinematicTree& tree) {
     squares += measures.joints[i] * measures.joints[i];
   }
   measures.linear = std::sqrt(squares);
+  measures.even.joints = std::holds_alternative<AxisLinear>(motion.path);
   return measures;
 }
 
@@ -87,6 +101,11 @@ Travel::Box Union(const Travel::Box& a, const Travel::Box& b) {
           a.axis_lower.cwiseMin(b.axis_lower), a.axis_upper.cwiseMax(b.axis_upper)};
 }
 
+bool Turns(const JointVector& change, const kinematics::FiveAxis& five_axis) {
+  return std::any_of(five_axis.rotary().begin(), five_axis.rotary().end(),
+                     [&](int joint) { return change[joint] != 0.0; });
+}
+
 /// Measures motions of one tool.
 class Meter {
  public:
@@ -109,7 +128,7 @@ class Meter {
     Measures measures = curve != nullptr ? OfTcp(*curve) : OfJoints(motion, tree_);
     if (five_axis_ == nullptr) return measures;
     for (std::size_t k = 0; k < five_axis_->rotary().size(); ++k) {
-      measures.axis += kinematics::Chord(measures.joints[five_axis_->rotary()[k]]) *
+      measures.axis += ChordOrArc(measures.joints[five_axis_->rotary()[k]], measures) *
                        std::max(from.radii[k], to.radii[k]);
     }
     if (curve != nullptr && curve->great_circle != nullptr) {
@@ -121,6 +140,7 @@ class Meter {
     } else {
       measures.tip = std::max(tip_path_->Bound(motion.q0(), tip_, measures.joints),
                               tip_path_->Bound(motion.q1(), tip_, measures.joints));
+      measures.even.tip = measures.even.joints && !Turns(measures.joints, *five_axis_);
     }
     return measures;
   }
@@ -145,6 +165,7 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
   const Meter meter(tree, five_axis, tool_length);
   tools_.reserve(motions_.size() + 1);
   middle_of_.reserve(motions_.size());
+  even_.reserve(motions_.size());
   tools_.push_back(meter.ToolAt(motions_.front()->q0()));
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& motion = *motions_[i];
@@ -160,6 +181,7 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
     Enclose(from.tip, to.tip, all(measures.tip), &box.tip_lower, &box.tip_upper);
     Enclose(from.axis, to.axis, all(measures.axis), &box.axis_lower, &box.axis_upper);
     AddSums(i, measures.joints, measures.linear, measures.tip, measures.axis);
+    even_.push_back(measures.even);
     AddMiddle(motion);
   }
   AddLevels();
@@ -233,6 +255,11 @@ double PairTravel::Between(std::size_t i, std::size_t j) const {
   double sum = kSumError;
   for (const auto& [k, weight] : weights_) sum += weight * (to[k] - from[k]);
   return sum;
+}
+
+bool PairTravel::Even(std::size_t i) const {
+  const Travel::Evenness& even = travel_->even(i);
+  return pair_->tool_to_table ? even.tip : even.joints;
 }
 
 std::size_t PairTravel::StretchEnd(std::size_t i, std::size_t level) const {

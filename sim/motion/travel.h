@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,12 @@ class Travel {
     JointVector lower, upper;
     Eigen::Vector3d tip_lower, tip_upper, axis_lower, axis_upper;
   };
+  /// Of which of its measures a motion makes even use: how far any of its poses is from the start
+  /// and how far from the end come to no more than the measure.
+  struct Evenness {
+    bool joints = false;  ///< In proportion.
+    bool tip = false;     ///< On a straight way, the axes in proportion and by little.
+  };
   /// Motions of the shortest stretch that has a box.
   static constexpr std::size_t kLeaf = 32;
 
@@ -45,6 +52,7 @@ class Travel {
   /// Tip and axis of the tool in the table's frame where motion i starts; or, of size(), where the
   /// last one ends.
   const kinematics::FiveAxis::ToolPose& tool(std::size_t i) const { return tools_[i]; }
+  const Evenness& even(std::size_t i) const { return even_[i]; }
   /// Of a dog-leg: where all of its joints are at half of their ways, and half of each way. No pose
   /// of it need be there.
   struct Middle {
@@ -73,6 +81,7 @@ class Travel {
   std::vector<kinematics::FiveAxis::ToolPose> tools_;
   std::vector<Middle> middles_;
   std::vector<int> middle_of_;
+  std::vector<Evenness> even_;
   double corner_rounding_ = 0.0;
   double orientation_tolerance_ = 0.0;
   std::size_t width_ = 0;
@@ -88,6 +97,8 @@ class PairTravel {
   /// Upper bound of how far any point of A gets, as seen from B, from where it is at one end of the
   /// motions [i, j) to any pose of them, mm.
   double Between(std::size_t i, std::size_t j) const;
+  /// Is no pose of motion i further from its two ends, in sum, than Between(i, i + 1)?
+  bool Even(std::size_t i) const;
   /// The last j in [i, size()] with Between(i, j) < `limit`, and i where there is none.
   std::size_t Furthest(std::size_t i, double limit) const;
 
