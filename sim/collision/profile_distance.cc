@@ -113,14 +113,14 @@ void ProfileDistance::Expand(const Cell& cell) {
 
 void ProfileDistance::ExpandNode(const TriangleTree::Node& node, double at_least) {
   ++evaluations_;
-  alignas(WideBoxes) Bounds lower;
+  Bounds lower;
   const WideNear near = BoundBoxes(node.boxes, *solid_, wide_enough_, lower.data());
   PushAll(lower, near, at_least, Kind::kNode, node.count, [&node](int i) { return node.child[i]; });
 }
 
 void ProfileDistance::ExpandLeaf(int leaf, double at_least) {
   ++evaluations_;
-  alignas(WideTriangles) Bounds lower;
+  Bounds lower;
   const WideNear near = BoundTriangles(tree_->leaf(leaf), *solid_, wide_enough_, lower.data());
   PushAll(lower, near, at_least, Kind::kTriangle, tree_->leaf_size(leaf),
           [leaf](int i) { return kWide * leaf + i; });

@@ -52,7 +52,7 @@ struct WideNear {
 };
 
 /// No point of box or triangle i has a smaller signed distance than lower[i]; rounding is taken
-/// off. `lower` is aligned as the boxes are. The same bytes on every processor.
+/// off. The same bytes on every processor.
 WideNear BoundBoxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower);
 WideNear BoundTriangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
                         float* lower);

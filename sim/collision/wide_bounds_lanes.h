@@ -106,7 +106,7 @@ class WideKernel {
    public:
     explicit Sorted(float enough) : enough_(enough) {}
     void Add(const Float& bound, int i, float* lower) {
-      *reinterpret_cast<Float*>(lower + i) = bound;
+      __builtin_memcpy(lower + i, &bound, sizeof(bound));
       const Mask near = bound < enough_;
       near_.lanes |= Bits(near) << i;
       const Float none = bound - bound + kFar;
