@@ -159,14 +159,14 @@ bool PairCheck::ClearWhenSwept(const Watch& watch) {
 // Motions without contact.
 void PairCheck::Passed(std::size_t end) {
   CloseRuns();
-  for (; at_ < end; ++at_) {
-    if (!cutting()) continue;
+  for (; cutting() && at_ < end; ++at_) {
     if (IsRapid(motion())) {
       carry_->reference.OnRapid(motion().facts.cycle, 0.0);
     } else {
       AfterFeed(0.0);
     }
   }
+  at_ = end;
 }
 
 void PairCheck::AfterFeed(double depth) {

@@ -80,22 +80,18 @@ void PairSweep::Accept(const Motion& motion, double clearance) {
   known_ = {clearance, true, motion.q1()};
 }
 
-double PairSweep::Need(const Watch& watch) const {
-  Sweep sweep;
-  sweep.watch = watch;
-  sweep.result.least = {kInfinity, kInfinity};
-  return Need(sweep);
+double PairSweep::Need(const Watch& watch) const { return Need(watch, kInfinity, false); }
+
+double PairSweep::Need(const Sweep& sweep) const {
+  return Need(sweep.watch, sweep.result.least.upper, sweep.refinements >= kRefinements);
 }
 
-// What an interval must be proven to clear. Above the contact level this serves reported numbers
-// only.
-double PairSweep::Need(const Sweep& sweep) const {
-  const Watch& watch = sweep.watch;
-  const double found = sweep.result.least.upper;
+// What an interval must be proven to clear, where `found` is the least that was seen of the motion.
+// Above the contact level this serves reported numbers only.
+double PairSweep::Need(const Watch& watch, double found, bool tired) const {
   double need = watch.contact;
   // Not known to be below a threshold: prove that it is not.
   if (watch.rounding > 0.0 && found >= watch.rounding) need = std::max(need, watch.rounding);
-  const bool tired = sweep.refinements >= kRefinements;
   if (watch.track && least_.upper < kInfinity) {
     const double seen = std::min(least_.upper, watch.track_ceiling);
     const bool fine = seen < watch.track_below && !tired;

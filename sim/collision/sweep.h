@@ -150,6 +150,7 @@ class PairSweep {
   void Deepen(const motion::Motion& motion, const motion::Span& whole, int queries,
               Deepening* search);
   double Need(const Sweep& sweep) const;
+  double Need(const Watch& watch, double found, bool tired) const;
   double Gap() const;
   std::optional<Interval> Look(const motion::Motion& motion, const Eigen::Isometry3d& X_BA,
                                const Watch& watch, double enough);

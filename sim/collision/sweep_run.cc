@@ -20,9 +20,7 @@ constexpr double kGapOfMeshes = 0.5;
 constexpr double kGapAround = 0.1;
 
 // Of the grid whose places serve for clearances of `ahead` mm.
-int GridOf(double ahead) {
-  return static_cast<int>(std::floor(std::log2(std::max(0.4 * ahead, 1e-3))));
-}
+int GridOf(double ahead) { return std::ilogb(std::max(0.4 * ahead, 1e-3)); }
 
 }  // namespace
 

@@ -238,6 +238,7 @@ PairTravel::PairTravel(const PairPath& pair, const Travel& travel)
   Weigh(joints + 1, 1.0);
   const Eigen::Vector3d p_ST(0.0, 0.0, travel.tool_length());
   reach_ = (pair.p_SC - p_ST).norm() + pair.a.radius;
+  in_spindle_ = pair.X_SA.matrix() == Eigen::Matrix4d::Identity();
   if (pair.revolved) {
     Weigh(joints + 2, reach_);
     return;
@@ -308,12 +309,13 @@ Eigen::Isometry3d PairTravel::PoseOf(const Neighbourhood& around) const {
 // Of a solid of revolution: any turn about its axis will do.
 Eigen::Isometry3d PairTravel::PoseOf(const Eigen::Vector3d& tip,
                                      const Eigen::Vector3d& axis) const {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear().col(2) = -axis;
-  X.linear().col(0) = axis.unitOrthogonal();
-  X.linear().col(1) = X.linear().col(2).cross(X.linear().col(0));
-  X.translation() = tip + travel_->tool_length() * axis;
-  return pair_->X_BTable * X * pair_->X_SA;
+  const Eigen::Vector3d axis_B = pair_->X_BTable.linear() * axis;
+  Eigen::Isometry3d X_BS = Eigen::Isometry3d::Identity();
+  X_BS.linear().col(2) = -axis_B;
+  X_BS.linear().col(0) = axis_B.unitOrthogonal();
+  X_BS.linear().col(1) = X_BS.linear().col(2).cross(X_BS.linear().col(0));
+  X_BS.translation() = pair_->X_BTable * tip + travel_->tool_length() * axis_B;
+  return in_spindle_ ? X_BS : X_BS * pair_->X_SA;
 }
 
 Eigen::Isometry3d PairTravel::Pose(std::size_t i) const {

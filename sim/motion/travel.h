@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,8 +26,8 @@ class Travel {
     JointVector lower, upper;
     Eigen::Vector3d tip_lower, tip_upper, axis_lower, axis_upper;
   };
-  /// Of which of its measures a motion makes even use: how far any of its poses is from the start
-  /// and how far from the end come to no more than the measure.
+  /// Which measures of a motion are even: how far a pose is from the start and how far from the
+  /// end come, together, to no more than the measure.
   struct Evenness {
     bool joints = false;  ///< In proportion.
     bool tip = false;     ///< On a straight way, the axes in proportion and by little.
@@ -106,6 +105,7 @@ class PairTravel {
   Eigen::Isometry3d Pose(std::size_t i) const;
   /// As motion::TranslationOf.
   std::optional<Translation> TranslationOf(std::size_t i) const;
+
   /// A pose on a grid that is the same for all runs; `key` numbers its places.
   using GridKey = std::array<int, 7>;
   /// A pose, and how far from it any point of A is at any pose of the motions up to `end`.
@@ -140,6 +140,7 @@ class PairTravel {
   };
   std::vector<Weight> weights_;  // of those measures that move the pair
   double reach_ = 0.0;           // tip to the farthest point of A, mm
+  bool in_spindle_ = false;      // A's link is the spindle's own
 };
 
 }  // namespace ncsim::motion
