@@ -34,6 +34,7 @@ std::optional<Interval> PairSweep::Look(const motion::Motion& motion, const Eige
   goal.relative_gap = Gap();
   goal.floor = Spared(watch);
   if (!watch.track || has_least()) goal.stop_above = goal.floor + enough;
+  if (!watch.track) goal.stop_below = goal.floor;  // no place to stand on
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(X_BA, goal);
   if (!clearance.has_value()) return clearance;
