@@ -67,7 +67,7 @@ PairCheck::PairCheck(const PairSetup& setup, const motion::Travel& travel, std::
 PairOutcome PairCheck::Run() {
   if (IsWidened(pair().role)) outcome_.widened = setup_->smoothing.Greatest(*travel_);
   while (at_ < travel_->size()) {
-    if (Cross()) continue;
+    if (PassUnknownFeeds() || Cross()) continue;
     OnMotion();
     ++at_;
   }
@@ -159,14 +159,14 @@ bool PairCheck::ClearWhenSwept(const Watch& watch) {
 // Motions without contact.
 void PairCheck::Passed(std::size_t end) {
   CloseRuns();
-  for (; at_ < end; ++at_) {
-    if (!cutting()) continue;
+  for (; cutting() && at_ < end; ++at_) {
     if (IsRapid(motion())) {
       carry_->reference.OnRapid(motion().facts.cycle, 0.0);
     } else {
       AfterFeed(0.0);
     }
   }
+  at_ = end;
 }
 
 void PairCheck::AfterFeed(double depth) {
@@ -208,6 +208,22 @@ void PairCheck::OnMotion() {
 // No gouge was asked for, so nobody has looked how deep the feeds went.
 bool PairCheck::feeds_unknown() const {
   return pair().role == PairRole::kFlutesPart && setup_->settings.gouge == machine::GougeMode::kOff;
+}
+
+// Passes over feeds on which there is nothing to look at.
+bool PairCheck::PassUnknownFeeds() {
+  if (!feeds_unknown()) return false;
+  std::size_t end = at_;
+  while (end < travel_->size() && IsFeed((*travel_)[end]) && (*travel_)[end].facts.spindle_on) {
+    ++end;
+  }
+  if (end == at_) return false;
+  CloseRuns();
+  sweep_.Forget();
+  at_ = end - 1;
+  AfterFeed(0.0);
+  at_ = end;
+  return true;
 }
 
 // What is known of the feeds' depth is what the sweeps came upon: enough for most rapids, but no

@@ -80,6 +80,7 @@ class PairCheck {
   void OnMotion();
   Judgement JudgeMotion(double allowed) const;
   SweepResult Sweep(Judgement* judgement);
+  bool PassUnknownFeeds();
   bool Cross();
   std::size_t CrossSwept(const Watch& watch);
   bool ClearWhenSwept(const Watch& watch);

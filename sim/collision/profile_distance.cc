@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "sim/base/units.h"
 #include "sim/collision/convex_minimum.h"
@@ -69,6 +71,8 @@ void ProfileDistance::SetUpper(double upper) {
   upper_ = upper;
   const double relative = (upper + goal_.relative_gap * goal_.floor) / (1.0 + goal_.relative_gap);
   enough_ = std::min({upper - goal_.gap, relative, goal_.stop_above});
+  wide_enough_ =
+      std::nextafter(static_cast<float>(enough_), std::numeric_limits<float>::infinity());
 }
 
 void ProfileDistance::Push(double lower, Kind kind, int index) {
@@ -77,28 +81,19 @@ void ProfileDistance::Push(double lower, Kind kind, int index) {
     return;
   }
   heap_.push_back({lower, kind, index});
-  std::push_heap(heap_.begin(), heap_.end(), Later);
+  std::push_heap(heap_.begin(), heap_.end(), Later());
 }
 
-// Most are far enough: which, no branch asks.
+// Lanes to spare repeat others.
 template <class Index>
-void ProfileDistance::PushAll(const std::array<float, kWide>& lower, double at_least, Kind kind,
+void ProfileDistance::PushAll(const Bounds& lower, const WideNear& near, double at_least, Kind kind,
                               int count, const Index& index) {
-  std::array<Cell, kWide> near;
-  std::size_t size = 0;
-  double passed = passed_;
-  for (int i = 0; i < count; ++i) {
-    const double bound =
-        std::max(at_least, static_cast<double>(lower[static_cast<std::size_t>(i)]));
-    const bool far = bound >= enough_;
-    near[size] = {bound, kind, index(i)};
-    size += far ? 0 : 1;
-    passed = std::min(passed, far ? bound : kInfinity);
-  }
-  passed_ = passed;
-  for (std::size_t i = 0; i < size; ++i) {
-    heap_.push_back(near[i]);
-    std::push_heap(heap_.begin(), heap_.end(), Later);
+  passed_ = std::min(passed_, static_cast<double>(near.passed));
+  for (unsigned lanes = static_cast<unsigned>(near.lanes); lanes != 0; lanes &= lanes - 1) {
+    const int i = std::countr_zero(lanes);
+    if (i >= count) return;
+    Push(std::max(at_least, static_cast<double>(lower[static_cast<std::size_t>(i)])), kind,
+         index(i));
   }
 }
 
@@ -118,16 +113,16 @@ void ProfileDistance::Expand(const Cell& cell) {
 
 void ProfileDistance::ExpandNode(const TriangleTree::Node& node, double at_least) {
   ++evaluations_;
-  std::array<float, kWide> lower;
-  BoundBoxes(node.boxes, *solid_, static_cast<float>(enough_), lower.data());
-  PushAll(lower, at_least, Kind::kNode, node.count, [&node](int i) { return node.child[i]; });
+  Bounds lower;
+  const WideNear near = BoundBoxes(node.boxes, *solid_, wide_enough_, lower.data());
+  PushAll(lower, near, at_least, Kind::kNode, node.count, [&node](int i) { return node.child[i]; });
 }
 
 void ProfileDistance::ExpandLeaf(int leaf, double at_least) {
   ++evaluations_;
-  std::array<float, kWide> lower;
-  BoundTriangles(tree_->leaf(leaf), *solid_, static_cast<float>(enough_), lower.data());
-  PushAll(lower, at_least, Kind::kTriangle, tree_->leaf_size(leaf),
+  Bounds lower;
+  const WideNear near = BoundTriangles(tree_->leaf(leaf), *solid_, wide_enough_, lower.data());
+  PushAll(lower, near, at_least, Kind::kTriangle, tree_->leaf_size(leaf),
           [leaf](int i) { return kWide * leaf + i; });
 }
 
@@ -273,7 +268,7 @@ Interval ProfileDistance::Surface(const RevolvedPose& pose, const DistanceGoal& 
   while (!heap_.empty() && heap_.front().lower < enough_ && upper_ >= goal.stop_below &&
          evaluations_ <= goal.max_evaluations) {
     const Cell cell = heap_.front();
-    std::pop_heap(heap_.begin(), heap_.end(), Later);
+    std::pop_heap(heap_.begin(), heap_.end(), Later());
     heap_.pop_back();
     Expand(cell);
   }

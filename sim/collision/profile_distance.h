@@ -79,7 +79,9 @@ class ProfileDistance {
     Kind kind = Kind::kNode;
     int index = 0;  ///< Of a node (or ~ of a leaf) or a triangle of the tree, or into pieces_.
   };
-  static bool Later(const Cell& a, const Cell& b) { return a.lower > b.lower; }
+  struct Later {
+    bool operator()(const Cell& a, const Cell& b) const { return a.lower > b.lower; }
+  };
   struct Local {
     double z = 0.0, r = 0.0;
     Eigen::Vector3d radial;
@@ -93,8 +95,9 @@ class ProfileDistance {
   void See(const Eigen::Vector3d& p, double distance);
   void SetUpper(double upper);
   void Push(double lower, Kind kind, int index);
+  using Bounds = std::array<float, kWide>;
   template <class Index>
-  void PushAll(const std::array<float, kWide>& lower, double at_least, Kind kind, int count,
+  void PushAll(const Bounds& lower, const WideNear& near, double at_least, Kind kind, int count,
                const Index& index);
   void Expand(const Cell& cell);
   void ExpandNode(const TriangleTree::Node& node, double at_least);
@@ -113,8 +116,9 @@ class ProfileDistance {
   RevolvedPose pose_;
   DistanceGoal goal_;
   double upper_ = 0.0;
-  double enough_ = 0.0;  // a bound that is no lower needs no improving
-  double passed_ = 0.0;  // least bound of what was not looked into
+  double enough_ = 0.0;       // a bound that is no lower needs no improving
+  float wide_enough_ = 0.0F;  // no less than that
+  double passed_ = 0.0;       // least bound of what was not looked into
   int evaluations_ = 0;
   std::vector<Cell> heap_;
   std::vector<TriangleTree::Triangle> pieces_;

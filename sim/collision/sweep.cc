@@ -17,6 +17,7 @@ using motion::Span;
 constexpr double kGapOfBound = 0.2;
 constexpr double kCutOut = 0.9;           // of what a clearance covers if the travel is even
 constexpr double kBestOfBounds = 0.4;     // of what the totals say of a motion
+constexpr double kBeyondBox = 0.25;       // of its radius, to be known clear at a dog-leg's end
 constexpr double kFirstContact = 1e-3;    // of the motion
 constexpr double kOnset = 1e-6;           // of the motion, where it begins
 constexpr double kOnsetGap = 1e-5;        // mm
@@ -79,22 +80,18 @@ void PairSweep::Accept(const Motion& motion, double clearance) {
   known_ = {clearance, true, motion.q1()};
 }
 
-double PairSweep::Need(const Watch& watch) const {
-  Sweep sweep;
-  sweep.watch = watch;
-  sweep.result.least = {kInfinity, kInfinity};
-  return Need(sweep);
+double PairSweep::Need(const Watch& watch) const { return Need(watch, kInfinity, false); }
+
+double PairSweep::Need(const Sweep& sweep) const {
+  return Need(sweep.watch, sweep.result.least.upper, sweep.refinements >= kRefinements);
 }
 
-// What an interval must be proven to clear. Above the contact level this serves reported numbers
-// only.
-double PairSweep::Need(const Sweep& sweep) const {
-  const Watch& watch = sweep.watch;
-  const double found = sweep.result.least.upper;
+// What an interval must be proven to clear, where `found` is the least that was seen of the motion.
+// Above the contact level this serves reported numbers only.
+double PairSweep::Need(const Watch& watch, double found, bool tired) const {
   double need = watch.contact;
   // Not known to be below a threshold: prove that it is not.
   if (watch.rounding > 0.0 && found >= watch.rounding) need = std::max(need, watch.rounding);
-  const bool tired = sweep.refinements >= kRefinements;
   if (watch.track && least_.upper < kInfinity) {
     const double seen = std::min(least_.upper, watch.track_ceiling);
     const bool fine = seen < watch.track_below && !tired;
@@ -144,7 +141,7 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch, const Tra
 }
 
 // The clearance all the way, where what is known at the start leaves enough of it, or what the tool
-// sweeps along its axis.
+// sweeps along its axis, or a look into the middle of a dog-leg's box.
 std::optional<double> PairSweep::PassAtOnce(Sweep* sweep) {
   const Motion& motion = *sweep->motion;
   const TravelPlace& place = sweep->place;
@@ -155,10 +152,12 @@ std::optional<double> PairSweep::PassAtOnce(Sweep* sweep) {
     const double most = place.travel->Between(place.at, place.at + 1);
     if (spare > most) return known_.clearance - most;
     hopeless = spare < kBestOfBounds * most;
-    if (hopeless && !path_->revolved) return std::nullopt;
   }
-  const auto translation = place.travel != nullptr ? place.travel->TranslationOf(place.at)
-                                                   : motion::TranslationOf(motion, *path_);
+  std::optional<motion::Translation> translation;
+  if (!hopeless || path_->revolved) {
+    translation = place.travel != nullptr ? place.travel->TranslationOf(place.at)
+                                          : motion::TranslationOf(motion, *path_);
+  }
   const Span whole = motion::Whole(motion);
   double bound = kInfinity;
   if (translation.has_value()) {
@@ -167,9 +166,24 @@ std::optional<double> PairSweep::PassAtOnce(Sweep* sweep) {
     bound = motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
   }
   if (spare > bound) return known_.clearance - bound;
-  if (!translation.has_value() || !path_->revolved) return std::nullopt;
+  if (!translation.has_value()) return PassInBox(*sweep, need);
   // How deep a feed goes is looked at.
+  if (!path_->revolved) return std::nullopt;
   return ClearAlongAxis(*translation, motion::IsRapid(motion) ? need : std::max(need, 0.0));
+}
+
+// A dog-leg's poses are nearer to the middle of its box than to any of each other: one look there
+// often is enough.
+std::optional<double> PairSweep::PassInBox(const Sweep& sweep, double need) {
+  const TravelPlace& place = sweep.place;
+  if (place.travel == nullptr || (sweep.watch.track && !has_least())) return std::nullopt;
+  const auto around = place.travel->AroundDogLeg(place.at);
+  if (!around.has_value()) return std::nullopt;
+  const double enough = need + around->radius;
+  const auto clearance =
+      Explore(*place.travel, *around, enough, kBeyondBox * around->radius + kContactResolution);
+  if (!clearance.has_value() || *clearance <= enough) return std::nullopt;
+  return *clearance - around->radius;
 }
 
 // A motion that is clear by `clearance` all the way. What was seen at its start stays seen.
@@ -322,17 +336,13 @@ void PairSweep::Split(const Span& span, double clearance, double bound, Sweep* s
 void PairSweep::Cover(const Span& whole, Sweep* sweep) {
   SweepResult& result = sweep->result;
   stack_.assign(1, whole);
-  bool first = sweep->place.travel != nullptr;
   while (!stack_.empty()) {
     const Span span = stack_.back();
     stack_.pop_back();
     // Spans come from left to right: a short one may still be the first of many that are not clear.
     if (result.contact && result.first.s - span.s0 <= kFirstContact) continue;
     const PathPoint middle = Middle(span);
-    const double bound =
-        std::exchange(first, false)
-            ? sweep->place.travel->AboutMiddle(sweep->place.at)
-            : motion::RelativeBound(*sweep->motion, *path_, span, middle.s, middle.lag);
+    const double bound = motion::RelativeBound(*sweep->motion, *path_, span, middle.s, middle.lag);
     const std::optional<Interval> clearance = Query(span, bound, sweep);
     if (!clearance.has_value() || !std::isfinite(bound) ||
         ++sweep->poses > sweep->watch.max_poses) {

@@ -150,10 +150,12 @@ class PairSweep {
   void Deepen(const motion::Motion& motion, const motion::Span& whole, int queries,
               Deepening* search);
   double Need(const Sweep& sweep) const;
+  double Need(const Watch& watch, double found, bool tired) const;
   double Gap() const;
   std::optional<Interval> Look(const motion::Motion& motion, const Eigen::Isometry3d& X_BA,
                                const Watch& watch, double enough);
   std::optional<double> PassAtOnce(Sweep* sweep);
+  std::optional<double> PassInBox(const Sweep& sweep, double need);
   /// A step of a Crossing: to `end`, clear by `least` all the way and by `clearance` there.
   struct Step {
     std::size_t end = 0;
@@ -170,11 +172,13 @@ class PairSweep {
               const Watch& watch);
   std::optional<double> Recall(const motion::PairTravel::Neighbourhood& around) const;
   std::optional<double> Explore(const motion::PairTravel& bound,
-                                const motion::PairTravel::Neighbourhood& around, double enough);
+                                const motion::PairTravel::Neighbourhood& around, double enough,
+                                double beyond);
   const motion::PairTravel::Neighbourhood& Stretch(const motion::PairTravel& bound, std::size_t at,
                                                    std::size_t level, int grid);
   Step Around(const motion::PairTravel& bound, std::size_t at, std::size_t path_end,
               const Watch& watch);
+  Step Backward(const motion::PairTravel& bound, std::size_t at, Step seen, bool even) const;
   Step Ahead(const motion::Travel& travel, const motion::PairTravel& bound, std::size_t at,
              const Watch& watch);
   bool Start(Sweep* sweep);

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMemory = 20000;  // poses of a pair
 constexpr double kFarthest = 1e5;       // mm, worth looking ahead
 constexpr double kOfAhead = 0.9;        // neighbourhoods up to this part of it are looked at
+constexpr double kBeyond = 0.25;        // of what is asked for ahead, around a pose
 constexpr double kStart = 0.02;         // mm, of clearance at a start that is near anyway
 // How closely a clearance is worked out, in parts of what it is beyond the need: less takes longer.
 constexpr double kGapOfSpare = 0.4;
@@ -19,9 +20,7 @@ constexpr double kGapOfMeshes = 0.5;
 constexpr double kGapAround = 0.1;
 
 // Of the grid whose places serve for clearances of `ahead` mm.
-int GridOf(double ahead) {
-  return static_cast<int>(std::floor(std::log2(std::max(0.4 * ahead, 1e-3))));
-}
+int GridOf(double ahead) { return std::ilogb(std::max(0.4 * ahead, 1e-3)); }
 
 }  // namespace
 
@@ -35,6 +34,7 @@ std::optional<Interval> PairSweep::Look(const motion::Motion& motion, const Eige
   goal.relative_gap = Gap();
   goal.floor = Spared(watch);
   if (!watch.track || has_least()) goal.stop_above = goal.floor + enough;
+  if (!watch.track) goal.stop_below = goal.floor;  // no place to stand on
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(X_BA, goal);
   if (!clearance.has_value()) return clearance;
@@ -72,7 +72,7 @@ std::optional<PairSweep::Step> PairSweep::Settle(const motion::PairTravel& bound
     const motion::PairTravel::Neighbourhood& around = Stretch(bound, at, level, grid);
     if (around.radius >= kOfAhead * ahead_) continue;
     const double enough = Spared(watch) + around.radius;
-    const std::optional<double> clearance = Explore(bound, around, enough);
+    const std::optional<double> clearance = Explore(bound, around, enough, kBeyond * ahead_);
     if (!clearance.has_value() || *clearance <= enough ||
         engine_->Contained(bound.PoseOf(around))) {
       break;
@@ -99,10 +99,10 @@ std::optional<double> PairSweep::Recall(const motion::PairTravel::Neighbourhood&
 
 std::optional<double> PairSweep::Explore(const motion::PairTravel& bound,
                                          const motion::PairTravel::Neighbourhood& around,
-                                         double enough) {
+                                         double enough, double beyond) {
   DistanceGoal goal;
   goal.relative_gap = engine_->has_depth() ? kGapAround : kGapOfMeshes;
-  goal.stop_above = enough + 0.25 * ahead_;
+  goal.stop_above = enough + beyond;
   if (!around.key.has_value()) goal.stop_below = enough;
   ++queries_;
   const std::optional<Interval> clearance = engine_->Clearance(bound.PoseOf(around), goal);
@@ -139,7 +139,7 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
     if ((!clearance.has_value() || *clearance <= enough) && around.radius < kOfAhead * ahead_ &&
         !explored) {
       explored = true;
-      clearance = Explore(bound, around, enough);
+      clearance = Explore(bound, around, enough, kBeyond * ahead_);
     }
     if (clearance.has_value() && *clearance > enough) {
       around_.Helped();
@@ -152,20 +152,23 @@ PairSweep::Step PairSweep::Around(const motion::PairTravel& bound, std::size_t a
   return {at, 0.0, 0.0};
 }
 
-// The motions from `at` on that a look at the end of one of them covers backward. Where that leaves
-// a gap, it is looked into the middle of it: what was seen beyond is kept, and serves later.
+// The motions from `at` on that a look at the end of one of them covers backward, with what is left
+// of the clearance at `at`. Where that leaves a gap, it is looked into the middle of it: what was
+// seen beyond is kept, and serves later.
 PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::PairTravel& bound,
                                  std::size_t at, const Watch& watch) {
   for (;;) {
-    std::size_t next = bound.Furthest(at, ahead_);
+    const double left = bound.Even(at) ? std::max(0.0, known_.clearance - Spared(watch)) : 0.0;
+    std::size_t next = bound.Furthest(at, ahead_ + left);
     if (!ahead_seen_.empty()) {
       const auto [end, clearance] = ahead_seen_.back();
-      const double left = clearance - bound.Between(at, end);
-      if (left > Spared(watch)) {
+      const Step step = Backward(bound, at, {end, 0.0, clearance}, left > 0.0);
+      if (step.least > Spared(watch)) {
         ahead_seen_.pop_back();
-        return {end, left, clearance};
+        return step;
       }
-      const std::size_t middle = bound.Furthest(at, 0.5 * (Spared(watch) - left));
+      const double gap = bound.Between(at, end) - left - (clearance - Spared(watch));
+      const std::size_t middle = bound.Furthest(at, 0.5 * gap);
       next = std::min({next, std::max(middle, at + 1), end - 1});
     }
     if (next == at) return {at, 0.0, 0.0};
@@ -174,6 +177,20 @@ PairSweep::Step PairSweep::Ahead(const motion::Travel& travel, const motion::Pai
     if (!clearance.has_value()) return {at, 0.0, 0.0};
     ahead_seen_.push_back({next, clearance->lower});
   }
+}
+
+// What `seen.clearance` says of the motions from `at` to `seen.end`. Where the first of them is
+// even, its poses are near to one of its ends, or as far from the one as they may be from the
+// other.
+PairSweep::Step PairSweep::Backward(const motion::PairTravel& bound, std::size_t at, Step seen,
+                                    bool even) const {
+  const double whole = seen.clearance - bound.Between(at, seen.end);
+  seen.least = whole;
+  if (even) {
+    const double behind = seen.clearance - bound.Between(at + 1, seen.end);
+    seen.least = std::max(whole, std::min(0.5 * (known_.clearance + whole), behind));
+  }
+  return seen;
 }
 
 PairSweep::Crossing PairSweep::Cross(const motion::Travel& travel, const motion::PairTravel& bound,

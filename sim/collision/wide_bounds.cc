@@ -15,13 +15,13 @@ const WideBounds& Best() {
 }
 }  // namespace
 
-void BoundBoxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower) {
-  Best().boxes(boxes, solid, enough, lower);
+WideNear BoundBoxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower) {
+  return Best().boxes(boxes, solid, enough, lower);
 }
 
-void BoundTriangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
-                    float* lower) {
-  Best().triangles(triangles, solid, enough, lower);
+WideNear BoundTriangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
+                        float* lower) {
+  return Best().triangles(triangles, solid, enough, lower);
 }
 
 }  // namespace ncsim::collision

@@ -45,16 +45,22 @@ struct WideSolid {
   float rounding;   ///< Error of `origin` and of what is measured from it, mm.
 };
 
+/// Which of eight bounds are below what is enough, and what the others leave to be said.
+struct WideNear {
+  int lanes;     ///< A bit for each.
+  float passed;  ///< The least of the others; 1e30 for none.
+};
+
 /// No point of box or triangle i has a smaller signed distance than lower[i]; rounding is taken
 /// off. The same bytes on every processor.
-void BoundBoxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower);
-void BoundTriangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
-                    float* lower);
+WideNear BoundBoxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower);
+WideNear BoundTriangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
+                        float* lower);
 
 /// One for each kind of processor.
 struct WideBounds {
-  void (*boxes)(const WideBoxes&, const WideSolid&, float, float*);
-  void (*triangles)(const WideTriangles&, const WideSolid&, float, float*);
+  WideNear (*boxes)(const WideBoxes&, const WideSolid&, float, float*);
+  WideNear (*triangles)(const WideTriangles&, const WideSolid&, float, float*);
 };
 extern const WideBounds kWideBaseline;  ///< Four lanes.
 extern const WideBounds kWideAvx2;      ///< Eight lanes; only where the processor has AVX2.

@@ -19,6 +19,8 @@ constexpr float kUnit = 6e-8F;
 constexpr float kChain = 40.0F * kUnit;
 // mm. A bound of a triangle so close to the truth is not worth another step.
 constexpr float kNear = 1e-3F;
+constexpr float kFar = 1e30F;
+constexpr float kThird = 1.0F / 3.0F;
 
 template <int N>
 class WideKernel {
@@ -26,36 +28,33 @@ class WideKernel {
   using Float = typename Lanes<N>::Float;
   using Mask = typename Lanes<N>::Mask;
 
-  static void Boxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower) {
+  static WideNear Boxes(const WideBoxes& boxes, const WideSolid& solid, float enough,
+                        float* lower) {
+    Sorted sorted(enough);
     for (int i = 0; i < kWide; i += N) {
-      const Box box = {FromOrigin(LoadVector(boxes.centre, i), solid),
-                       {LoadVector(boxes.half[0], i), LoadVector(boxes.half[1], i),
-                        LoadVector(boxes.half[2], i)}};
-      Store(Bound(box, solid, enough), lower + i);
+      const Box box(FromOrigin(LoadVector(boxes.centre, i), solid), LoadVector(boxes.half[0], i),
+                    LoadVector(boxes.half[1], i), LoadVector(boxes.half[2], i), solid);
+      sorted.Add(Bound(box, solid, enough), i, lower);
     }
+    return sorted.Near();
   }
 
-  static void Triangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
-                        float* lower) {
+  static WideNear Triangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
+                            float* lower) {
+    Sorted sorted(enough);
     for (int i = 0; i < kWide; i += N) {
       const Vector a = LoadVector(triangles.corner[0], i);
       const Vector b = LoadVector(triangles.corner[1], i);
       const Vector c = LoadVector(triangles.corner[2], i);
-      Store(Bound(Triangle{FromOrigin(a, solid), {Minus(b, a), Minus(c, a)}}, solid, enough),
-            lower + i);
+      const Triangle triangle(FromOrigin(a, solid), Minus(b, a), Minus(c, a), solid);
+      sorted.Add(Bound(triangle, solid, enough), i, lower);
     }
+    return sorted.Near();
   }
 
  private:
   struct Vector {
     Float x, y, z;
-  };
-  // From the solid's origin.
-  struct Box {
-    Vector centre, half[3];
-  };
-  struct Triangle {
-    Vector corner, side[2];
   };
   // A point in the solid's half plane, and the direction from the axis to it (0 on the axis); given
   // from the solid's origin.
@@ -76,6 +75,51 @@ class WideKernel {
     Float z, r, error;
     Vector radial;
   };
+  // From the solid's origin; with what all of its parts need: how far it spreads, and its middle.
+  struct Box {
+    Box(const Vector& c, const Vector& a, const Vector& b, const Vector& d, const WideSolid& solid)
+        : centre(c),
+          half{a, b, d},
+          spread(SumOfSizes(a) + SumOfSizes(b) + SumOfSizes(d)),
+          middle(c, spread, solid) {}
+    Vector centre, half[3];
+    Float spread;
+    Place middle;
+  };
+  struct Triangle {
+    Triangle(const Vector& a, const Vector& b, const Vector& c, const WideSolid& solid)
+        : corner(a),
+          side{b, c},
+          spread(SumOfSizes(b) + SumOfSizes(c)),
+          middle(At(kThird, kThird), spread, solid) {}
+    template <typename Number>
+    Vector At(const Number& a, const Number& b) const {
+      return {corner.x + a * side[0].x + b * side[1].x, corner.y + a * side[0].y + b * side[1].y,
+              corner.z + a * side[0].z + b * side[1].z};
+    }
+    Vector corner, side[2];
+    Float spread;
+    Place middle;
+  };
+  // Bounds as they come, and which of them are below `enough`.
+  class Sorted {
+   public:
+    explicit Sorted(float enough) : enough_(enough) {}
+    void Add(const Float& bound, int i, float* lower) {
+      __builtin_memcpy(lower + i, &bound, sizeof(bound));
+      const Mask near = bound < enough_;
+      near_.lanes |= Bits(near) << i;
+      const Float none = bound - bound + kFar;
+      const Float passed = near ? none : bound;
+      for (int k = 0; k < N; ++k)
+        near_.passed = passed[k] < near_.passed ? passed[k] : near_.passed;
+    }
+    const WideNear& Near() const { return near_; }
+
+   private:
+    float enough_;
+    WideNear near_{0, kFar};
+  };
   // A plane that supports a convex part, and how the distance bends there: along the profile, 0
   // beside a line.
   struct Plane {
@@ -86,18 +130,23 @@ class WideKernel {
     return {*reinterpret_cast<const Float*>(v[0] + i), *reinterpret_cast<const Float*>(v[1] + i),
             *reinterpret_cast<const Float*>(v[2] + i)};
   }
-  static void Store(const Float& value, float* p) {
-    for (int k = 0; k < N; ++k) p[k] = value[k];
-  }
-  static Float Size(const Float& a) { return a < 0.0F ? -a : a; }
+  static Float Size(const Float& a) { return Most(a, -a); }
   static Float SumOfSizes(const Vector& v) { return Size(v.x) + Size(v.y) + Size(v.z); }
   static Float Least(const Float& a, const Float& b) { return a < b ? a : b; }
   static Float Most(const Float& a, const Float& b) { return b > a ? b : a; }
-  static bool Any(const Mask& mask) {
-    int any = 0;
-    for (int k = 0; k < N; ++k) any |= mask[k];
-    return any != 0;
+  // A bit for each lane that is true.
+  static int Bits(const Mask& mask) {
+#ifdef __SSE2__
+    if constexpr (N == 4) return __builtin_ia32_movmskps(reinterpret_cast<const Float&>(mask));
+#endif
+#ifdef __AVX__
+    if constexpr (N == 8) return __builtin_ia32_movmskps256(reinterpret_cast<const Float&>(mask));
+#endif
+    int bits = 0;
+    for (int k = 0; k < N; ++k) bits |= mask[k] & (1 << k);
+    return bits;
   }
+  static bool Any(const Mask& mask) { return Bits(mask) != 0; }
   static Vector FromOrigin(const Vector& p, const WideSolid& solid) {
     return {p.x - solid.origin[0], p.y - solid.origin[1], p.z - solid.origin[2]};
   }
@@ -147,8 +196,8 @@ class WideKernel {
       round_is_best = round_is_best | better;
     }
     const Float inverse = 1.0F / length;
-    best.normal_z = best.normal_z / length;
-    best.normal_r = best.normal_r / length;
+    best.normal_z = best.normal_z * inverse;
+    best.normal_r = best.normal_r * inverse;
     best.curvature = round_is_best ? inverse : zero;
     return best;
   }
@@ -163,15 +212,12 @@ class WideKernel {
   // centre on the solid.
   static Float BoundPart(const Box& box, const WideSolid& solid, const WidePart& part,
                          float enough) {
-    const Float spread =
-        SumOfSizes(box.half[0]) + SumOfSizes(box.half[1]) + SumOfSizes(box.half[2]);
-    const Float zero = spread - spread;
-    const Place middle(box.centre, spread, solid);
-    const Plane plane = Furthest(middle, part);
-    const Vector g = Slope(plane, middle, solid);
+    const Float zero = box.spread - box.spread;
+    const Plane plane = Furthest(box.middle, part);
+    const Vector g = Slope(plane, box.middle, solid);
     const Float along[3] = {Dot(g, box.half[0]), Dot(g, box.half[1]), Dot(g, box.half[2])};
     const Float lower =
-        plane.distance - middle.error - (Size(along[0]) + Size(along[1]) + Size(along[2]));
+        plane.distance - box.middle.error - (Size(along[0]) + Size(along[1]) + Size(along[2]));
     const Mask open = lower < enough;
     if (!Any(open)) return lower;
     Float at[3];
@@ -182,7 +228,7 @@ class WideKernel {
       at[k] = Least(Most(foot, zero - 1.0F), zero + 1.0F);
       p = {p.x + at[k] * half.x, p.y + at[k] * half.y, p.z + at[k] * half.z};
     }
-    const Place near(p, spread, solid);
+    const Place near(p, box.spread, solid);
     const Plane other = Furthest(near, part);
     const Vector h = Slope(other, near, solid);
     Float least = other.distance - near.error;
@@ -197,18 +243,14 @@ class WideKernel {
   static Float BoundPart(const Triangle& t, const WideSolid& solid, const WidePart& part,
                          float enough) {
     constexpr int kSteps = 4;
-    const Float zero = t.corner.x - t.corner.x;
-    const Float spread = SumOfSizes(t.side[0]) + SumOfSizes(t.side[1]);
-    Float a = zero + 1.0F / 3.0F;
+    const Float zero = t.spread - t.spread;
+    Float a = zero + kThird;
     Float b = a;
+    Place place = t.middle;
     Float lower = zero - 1e30F;
     Float upper = zero + 1e30F;
     Mask open = zero < 1.0F;  // a lane takes its steps whatever its neighbours do
     for (int step = 0;; ++step) {
-      const Vector p = {t.corner.x + a * t.side[0].x + b * t.side[1].x,
-                        t.corner.y + a * t.side[0].y + b * t.side[1].y,
-                        t.corner.z + a * t.side[0].z + b * t.side[1].z};
-      const Place place(p, spread, solid);
       const Plane plane = Furthest(place, part);
       const Vector g = Slope(plane, place, solid);
       const Float ga = Dot(g, t.side[0]);
@@ -236,6 +278,7 @@ class WideKernel {
                            most * ga * gb + plane.curvature * ta * tb + turn * ua * ub,
                            most * gb * gb + plane.curvature * tb * tb + turn * ub * ub};
       Step(q, &a, &b);
+      place = Place(t.At(a, b), t.spread, solid);
     }
   }
 

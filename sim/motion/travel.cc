@@ -17,18 +17,29 @@ constexpr double kSumError = 1e-6;
 /// Of a turn on the grid, mm: any will do, one near the size of a machine's links does well.
 constexpr double kGridRadius = 256.0;
 
+/// Turns up to here count as even, rad: their arcs are longer than their chords by less than 1 in
+/// 2000.
+constexpr double kEvenTurn = 0.1;
+
 /// The measures of one motion.
 struct Measures {
   JointVector joints;
   double linear = 0.0;
   double tip = 0.0;
   double axis = 0.0;
+  Travel::Evenness even;
 };
+
+double ChordOrArc(double turn, const Measures& measures) {
+  return measures.even.tip ? turn : kinematics::Chord(turn);
+}
 
 Measures OfTcp(const TcpCurve& curve) {
   const kinematics::FiveAxis& control = curve.frame->control;
   // Within half the way of the middle, so within twice that of an end.
-  const TcpReach reach = Reach(curve, RotaryAt(curve, 0.5), 0.5, 0.5);
+  const JointVector middle =
+      curve.great_circle == nullptr ? 0.5 * (curve.q0 + curve.q1) : RotaryAt(curve, 0.5);
+  const TcpReach reach = Reach(curve, middle, 0.5, 0.5);
   Measures measures;
   measures.joints = 2.0 * reach.deviation;
   double squares = 0.0;
@@ -38,17 +49,25 @@ Measures OfTcp(const TcpCurve& curve) {
   if (control.linear_square()) {
     measures.linear = std::min(measures.linear, 2.0 * reach.linear_distance);
   }
+  const auto& rotary = control.rotary();
+  measures.even.tip = !curve.arc && curve.great_circle == nullptr &&
+                      std::all_of(rotary.begin(), rotary.end(),
+                                  [&](int joint) { return measures.joints[joint] <= kEvenTurn; });
   measures.tip = TipTravel(curve, 1.0);
-  for (const int joint : control.rotary()) {
-    measures.tip += kinematics::Chord(measures.joints[joint]) * curve.frame->centre_error;
+  for (const int joint : rotary) {
+    measures.tip += ChordOrArc(measures.joints[joint], measures) * curve.frame->centre_error;
   }
   return measures;
 }
 
 Measures OfJoints(const Motion& motion, const kinematics::KinematicTree& tree) {
-  const JointBox box = Box(motion, Whole(motion));
   Measures measures;
-  measures.joints = box.upper - box.lower;
+  if (std::holds_alternative<AxisArc>(motion.path)) {
+    const JointBox box = Box(motion, Whole(motion));
+    measures.joints = box.upper - box.lower;
+  } else {
+    measures.joints = (motion.q1() - motion.q0()).cwiseAbs();  // each axis goes one way
+  }
   double squares = 0.0;
   for (Eigen::Index i = 0; i < measures.joints.size(); ++i) {
     const auto joint = static_cast<std::size_t>(tree.moving_joints()[static_cast<std::size_t>(i)]);
@@ -56,6 +75,7 @@ Measures OfJoints(const Motion& motion, const kinematics::KinematicTree& tree) {
     squares += measures.joints[i] * measures.joints[i];
   }
   measures.linear = std::sqrt(squares);
+  measures.even.joints = std::holds_alternative<AxisLinear>(motion.path);
   return measures;
 }
 
@@ -81,6 +101,11 @@ Travel::Box Union(const Travel::Box& a, const Travel::Box& b) {
           a.axis_lower.cwiseMin(b.axis_lower), a.axis_upper.cwiseMax(b.axis_upper)};
 }
 
+bool Turns(const JointVector& change, const kinematics::FiveAxis& five_axis) {
+  return std::any_of(five_axis.rotary().begin(), five_axis.rotary().end(),
+                     [&](int joint) { return change[joint] != 0.0; });
+}
+
 /// Measures motions of one tool.
 class Meter {
  public:
@@ -103,7 +128,7 @@ class Meter {
     Measures measures = curve != nullptr ? OfTcp(*curve) : OfJoints(motion, tree_);
     if (five_axis_ == nullptr) return measures;
     for (std::size_t k = 0; k < five_axis_->rotary().size(); ++k) {
-      measures.axis += kinematics::Chord(measures.joints[five_axis_->rotary()[k]]) *
+      measures.axis += ChordOrArc(measures.joints[five_axis_->rotary()[k]], measures) *
                        std::max(from.radii[k], to.radii[k]);
     }
     if (curve != nullptr && curve->great_circle != nullptr) {
@@ -115,6 +140,7 @@ class Meter {
     } else {
       measures.tip = std::max(tip_path_->Bound(motion.q0(), tip_, measures.joints),
                               tip_path_->Bound(motion.q1(), tip_, measures.joints));
+      measures.even.tip = measures.even.joints && !Turns(measures.joints, *five_axis_);
     }
     return measures;
   }
@@ -139,6 +165,7 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
   const Meter meter(tree, five_axis, tool_length);
   tools_.reserve(motions_.size() + 1);
   middle_of_.reserve(motions_.size());
+  even_.reserve(motions_.size());
   tools_.push_back(meter.ToolAt(motions_.front()->q0()));
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& motion = *motions_[i];
@@ -154,6 +181,7 @@ Travel::Travel(const kinematics::KinematicTree& tree, const kinematics::FiveAxis
     Enclose(from.tip, to.tip, all(measures.tip), &box.tip_lower, &box.tip_upper);
     Enclose(from.axis, to.axis, all(measures.axis), &box.axis_lower, &box.axis_upper);
     AddSums(i, measures.joints, measures.linear, measures.tip, measures.axis);
+    even_.push_back(measures.even);
     AddMiddle(motion);
   }
   AddLevels();
@@ -163,10 +191,9 @@ void Travel::AddMiddle(const Motion& motion) {
   middle_of_.push_back(-1);
   if (!std::holds_alternative<DogLeg>(motion.path)) return;
   middle_of_.back() = static_cast<int>(middles_.size());
-  const Span whole = Whole(motion);
-  const JointVector q = motion.At(0.5, 0.5 * (whole.lag0 + whole.lag1));
-  const JointBox box = motion::Box(motion, whole);
-  middles_.push_back({q, (box.upper - q).cwiseMax(q - box.lower).cwiseMax(0.0)});
+  // Each axis goes one way.
+  middles_.push_back(
+      {0.5 * (motion.q0() + motion.q1()), (0.5 * (motion.q1() - motion.q0())).cwiseAbs()});
 }
 
 void Travel::AddSums(std::size_t i, const JointVector& joints, double linear, double tip,
@@ -211,6 +238,7 @@ PairTravel::PairTravel(const PairPath& pair, const Travel& travel)
   Weigh(joints + 1, 1.0);
   const Eigen::Vector3d p_ST(0.0, 0.0, travel.tool_length());
   reach_ = (pair.p_SC - p_ST).norm() + pair.a.radius;
+  in_spindle_ = pair.X_SA.matrix() == Eigen::Matrix4d::Identity();
   if (pair.revolved) {
     Weigh(joints + 2, reach_);
     return;
@@ -228,6 +256,11 @@ double PairTravel::Between(std::size_t i, std::size_t j) const {
   double sum = kSumError;
   for (const auto& [k, weight] : weights_) sum += weight * (to[k] - from[k]);
   return sum;
+}
+
+bool PairTravel::Even(std::size_t i) const {
+  const Travel::Evenness& even = travel_->even(i);
+  return pair_->tool_to_table ? even.tip : even.joints;
 }
 
 std::size_t PairTravel::StretchEnd(std::size_t i, std::size_t level) const {
@@ -270,18 +303,19 @@ PairTravel::Neighbourhood PairTravel::Around(std::size_t i, std::size_t level, i
 }
 
 Eigen::Isometry3d PairTravel::PoseOf(const Neighbourhood& around) const {
-  return by_tip() ? PoseOf(around.tip, around.axis) : pair_->path.Pose(around.q);
+  return around.q.size() > 0 ? pair_->path.Pose(around.q) : PoseOf(around.tip, around.axis);
 }
 
 // Of a solid of revolution: any turn about its axis will do.
 Eigen::Isometry3d PairTravel::PoseOf(const Eigen::Vector3d& tip,
                                      const Eigen::Vector3d& axis) const {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear().col(2) = -axis;
-  X.linear().col(0) = axis.unitOrthogonal();
-  X.linear().col(1) = X.linear().col(2).cross(X.linear().col(0));
-  X.translation() = tip + travel_->tool_length() * axis;
-  return pair_->X_BTable * X * pair_->X_SA;
+  const Eigen::Vector3d axis_B = pair_->X_BTable.linear() * axis;
+  Eigen::Isometry3d X_BS = Eigen::Isometry3d::Identity();
+  X_BS.linear().col(2) = -axis_B;
+  X_BS.linear().col(0) = axis_B.unitOrthogonal();
+  X_BS.linear().col(1) = X_BS.linear().col(2).cross(X_BS.linear().col(0));
+  X_BS.translation() = pair_->X_BTable * tip + travel_->tool_length() * axis_B;
+  return in_spindle_ ? X_BS : X_BS * pair_->X_SA;
 }
 
 Eigen::Isometry3d PairTravel::Pose(std::size_t i) const {
@@ -300,26 +334,34 @@ std::optional<Translation> PairTravel::TranslationOf(std::size_t i) const {
   return result;
 }
 
-double PairTravel::AboutMiddle(std::size_t i) const {
-  const Motion& motion = (*travel_)[i];
+std::optional<PairTravel::Neighbourhood> PairTravel::AroundDogLeg(std::size_t i) const {
   const Travel::Middle* middle = travel_->middle(i);
-  if (middle != nullptr) return pair_->path.Bound(middle->q, pair_->a, middle->deviation);
-  const Span whole = Whole(motion);
-  return RelativeBound(motion, *pair_, whole, 0.5, 0.5 * (whole.lag0 + whole.lag1));
+  if (middle == nullptr) return std::nullopt;
+  Neighbourhood around;
+  around.radius = kSumError + pair_->path.Bound(middle->q, pair_->a, middle->deviation);
+  around.end = i + 1;
+  around.q = middle->q;
+  return around;
 }
 
-// The totals only grow: strides that double, then halves.
+// The totals only grow: strides that double, then halves of what is left.
 std::size_t PairTravel::Furthest(std::size_t i, double limit) const {
   const std::size_t size = travel_->size();
+  if (limit <= 0.0) return i;
   if (Between(i, size) < limit) return size;
   std::size_t low = i;
-  std::size_t stride = 1;
-  while (low + stride <= size && Between(i, low + stride) < limit) {
-    low += stride;
-    stride *= 2;
+  std::size_t high = size;  // not below the limit
+  for (std::size_t stride = 1; low + stride < high; stride *= 2) {
+    if (Between(i, low + stride) < limit) {
+      low += stride;
+    } else {
+      high = low + stride;
+      break;
+    }
   }
-  for (; stride > 0; stride /= 2) {
-    if (low + stride <= size && Between(i, low + stride) < limit) low += stride;
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (Between(i, middle) < limit ? low : high) = middle;
   }
   return low;
 }

@@ -26,6 +26,12 @@ class Travel {
     JointVector lower, upper;
     Eigen::Vector3d tip_lower, tip_upper, axis_lower, axis_upper;
   };
+  /// Which measures of a motion are even: how far a pose is from the start and how far from the
+  /// end come, together, to no more than the measure.
+  struct Evenness {
+    bool joints = false;  ///< In proportion.
+    bool tip = false;     ///< On a straight way, the axes in proportion and by little.
+  };
   /// Motions of the shortest stretch that has a box.
   static constexpr std::size_t kLeaf = 32;
 
@@ -45,7 +51,9 @@ class Travel {
   /// Tip and axis of the tool in the table's frame where motion i starts; or, of size(), where the
   /// last one ends.
   const kinematics::FiveAxis::ToolPose& tool(std::size_t i) const { return tools_[i]; }
-  /// Of a dog-leg: the joints in its middle, and how far from there each of them gets.
+  const Evenness& even(std::size_t i) const { return even_[i]; }
+  /// Of a dog-leg: where all of its joints are at half of their ways, and half of each way. No pose
+  /// of it need be there.
   struct Middle {
     JointVector q, deviation;
   };
@@ -72,6 +80,7 @@ class Travel {
   std::vector<kinematics::FiveAxis::ToolPose> tools_;
   std::vector<Middle> middles_;
   std::vector<int> middle_of_;
+  std::vector<Evenness> even_;
   double corner_rounding_ = 0.0;
   double orientation_tolerance_ = 0.0;
   std::size_t width_ = 0;
@@ -87,6 +96,8 @@ class PairTravel {
   /// Upper bound of how far any point of A gets, as seen from B, from where it is at one end of the
   /// motions [i, j) to any pose of them, mm.
   double Between(std::size_t i, std::size_t j) const;
+  /// Is no pose of motion i further from its two ends, in sum, than Between(i, i + 1)?
+  bool Even(std::size_t i) const;
   /// The last j in [i, size()] with Between(i, j) < `limit`, and i where there is none.
   std::size_t Furthest(std::size_t i, double limit) const;
 
@@ -94,8 +105,6 @@ class PairTravel {
   Eigen::Isometry3d Pose(std::size_t i) const;
   /// As motion::TranslationOf.
   std::optional<Translation> TranslationOf(std::size_t i) const;
-  /// RelativeBound over the whole of motion i, from its middle.
-  double AboutMiddle(std::size_t i) const;
 
   /// A pose on a grid that is the same for all runs; `key` numbers its places.
   using GridKey = std::array<int, 7>;
@@ -104,9 +113,9 @@ class PairTravel {
     double radius = 0.0;  ///< mm
     std::size_t end = 0;
     std::optional<GridKey> key;  ///< For pairs whose poses a program comes back to.
-    /// The pose: tip and axis of the tool in the table's frame, or joints.
-    Eigen::Vector3d tip, axis;
+    /// The pose: joints or, where there are none, tip and axis of the tool in the table's frame.
     JointVector q;
+    Eigen::Vector3d tip, axis;
   };
   /// X_BA.
   Eigen::Isometry3d PoseOf(const Neighbourhood& around) const;
@@ -114,6 +123,8 @@ class PairTravel {
   std::size_t StretchEnd(std::size_t i, std::size_t level) const;
   /// Of the stretch of `level` that motion i is in. `grid`: the spacing of the grid is 2^grid mm.
   Neighbourhood Around(std::size_t i, std::size_t level, int grid) const;
+  /// Of motion i alone, where it is a dog-leg.
+  std::optional<Neighbourhood> AroundDogLeg(std::size_t i) const;
   std::size_t levels() const { return travel_->levels(); }
 
  private:
@@ -129,6 +140,7 @@ class PairTravel {
   };
   std::vector<Weight> weights_;  // of those measures that move the pair
   double reach_ = 0.0;           // tip to the farthest point of A, mm
+  bool in_spindle_ = false;      // A's link is the spindle's own
 };
 
 }  // namespace ncsim::motion

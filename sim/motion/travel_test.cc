@@ -53,20 +53,33 @@ std::vector<JointVector> Poses(const Motion& motion) {
   return poses;
 }
 
-// What the totals know of motion i: where it starts and ends, how far it gets from its middle, and
-// its straight way.
+/// Motions of which more than their ends was held.
+struct Held {
+  int even = 0, dog_legs = 0;
+};
+
+// What the totals know of motion i: where it starts and ends, that it is even, how far it gets from
+// the middle of its box, and its straight way.
 template <class Moved>
 void HoldOne(const Motion& motion, const PairPath& pair, const PairTravel& bound, std::size_t i,
-             const Moved& moved) {
-  ASSERT_LE(moved(bound.Pose(i), pair.path.Pose(motion.q0())), 1e-6);
-  ASSERT_LE(moved(bound.Pose(i + 1), pair.path.Pose(motion.q1())), 1e-6);
-  const Span whole = Whole(motion);
-  const Eigen::Isometry3d X_middle =
-      pair.path.Pose(motion.At(0.5, 0.5 * (whole.lag0 + whole.lag1)));
+             Held* held, const Moved& moved) {
+  const Eigen::Isometry3d X_begin = pair.path.Pose(motion.q0());
+  const Eigen::Isometry3d X_end = pair.path.Pose(motion.q1());
+  ASSERT_LE(moved(bound.Pose(i), X_begin), 1e-6);
+  ASSERT_LE(moved(bound.Pose(i + 1), X_end), 1e-6);
+  const std::optional<PairTravel::Neighbourhood> around = bound.AroundDogLeg(i);
+  ASSERT_EQ(around.has_value(), std::holds_alternative<DogLeg>(motion.path));
+  held->dog_legs += around.has_value() ? 1 : 0;
+  held->even += bound.Even(i) && bound.Between(i, i + 1) > 1e-3 ? 1 : 0;
   const std::optional<Translation> straight = bound.TranslationOf(i);
   for (const JointVector& q : Poses(motion)) {
     const Eigen::Isometry3d X = pair.path.Pose(q);
-    ASSERT_LE(moved(X_middle, X), bound.AboutMiddle(i) + 1e-6);
+    if (around.has_value()) {
+      ASSERT_LE(moved(bound.PoseOf(*around), X), around->radius);
+    }
+    if (bound.Even(i)) {
+      ASSERT_LE(moved(X_begin, X) + moved(X, X_end), bound.Between(i, i + 1));
+    }
     if (!straight.has_value()) continue;
     constexpr int kPlaces = 64;
     double astray = std::numeric_limits<double>::infinity();
@@ -83,7 +96,7 @@ void HoldOne(const Motion& motion, const PairPath& pair, const PairTravel& bound
 // PairTravel says. `moved` measures between two X_BA.
 template <class Moved>
 void Hold(const std::vector<Motion>& motions, const PairPath& pair, const Travel& travel,
-          const Moved& moved) {
+          Held* held, const Moved& moved) {
   const PairTravel bound(pair, travel);
   for (std::size_t i = 0; i < motions.size(); ++i) {
     for (std::size_t j = i + 1; j <= motions.size(); ++j) {
@@ -98,7 +111,7 @@ void Hold(const std::vector<Motion>& motions, const PairPath& pair, const Travel
     }
   }
   for (std::size_t i = 0; i < motions.size(); ++i) {
-    HoldOne(motions[i], pair, bound, i, moved);
+    HoldOne(motions[i], pair, bound, i, held, moved);
     if (::testing::Test::HasFatalFailure()) return;
   }
   for (std::size_t level = 0; level < travel.levels(); ++level) {
@@ -114,6 +127,7 @@ void Hold(const std::vector<Motion>& motions, const PairPath& pair, const Travel
 
 TEST(TravelTest, NoPairGetsFurtherThanItsTotals) {
   Random random(31);
+  Held held;
   for (int i = 0; i < 400; ++i) {
     const TestMachine machine = RandomMachine(&random, {random.Chance(0.4), random.Chance(0.3)});
     const auto metal = FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
@@ -135,7 +149,7 @@ TEST(TravelTest, NoPairGetsFurtherThanItsTotals) {
     for (int k = 0; k < 6; ++k) {
       points.emplace_back(extent.p_LC + extent.radius * random.Direction());
     }
-    Hold(motions, pair, travel, [&](const Eigen::Isometry3d& X, const Eigen::Isometry3d& Y) {
+    Hold(motions, pair, travel, &held, [&](const Eigen::Isometry3d& X, const Eigen::Isometry3d& Y) {
       double farthest = 0.0;
       for (const Eigen::Vector3d& p : points) {
         farthest = std::max(farthest, (X * p - Y * p).norm());
@@ -144,12 +158,15 @@ TEST(TravelTest, NoPairGetsFurtherThanItsTotals) {
     });
     if (HasFatalFailure()) FAIL() << "case " << i;
   }
+  EXPECT_GT(held.even, 50);
+  EXPECT_GT(held.dog_legs, 50);
 }
 
 // A cylinder about the spindle's axis: what counts is how far its points get from the solid, not
 // from themselves.
 TEST(TravelTest, ASolidOfRevolutionMayTurnAboutItsAxis) {
   Random random(32);
+  Held held;
   double free_spin = 0.0;
   for (int i = 0; i < 300; ++i) {
     const TestMachine machine = RandomMachine(&random, {random.Chance(0.4), random.Chance(0.3)});
@@ -168,7 +185,7 @@ TEST(TravelTest, ASolidOfRevolutionMayTurnAboutItsAxis) {
     const double as_any = PairTravel(pair, travel).Between(0, motions.size());
     pair.revolved = true;
     free_spin = std::max(free_spin, as_any - PairTravel(pair, travel).Between(0, motions.size()));
-    Hold(motions, pair, travel, [&](const Eigen::Isometry3d& X, const Eigen::Isometry3d& Y) {
+    Hold(motions, pair, travel, &held, [&](const Eigen::Isometry3d& X, const Eigen::Isometry3d& Y) {
       double farthest = 0.0;
       for (int k = 0; k < 16; ++k) {
         const double angle = 0.785398 * k;
@@ -183,6 +200,8 @@ TEST(TravelTest, ASolidOfRevolutionMayTurnAboutItsAxis) {
     });
     if (HasFatalFailure()) FAIL() << "case " << i;
   }
+  EXPECT_GT(held.even, 50);
+  EXPECT_GT(held.dog_legs, 50);
   EXPECT_GT(free_spin, 1.0);
 }
 
@@ -190,6 +209,7 @@ TEST(TravelTest, ASolidOfRevolutionMayTurnAboutItsAxis) {
 // nothing about it.
 TEST(TravelTest, ASolidOfRevolutionAgainstAnyLink) {
   Random random(33);
+  Held held;
   for (int i = 0; i < 300; ++i) {
     const TestMachine machine = RandomMachine(&random, {random.Chance(0.4), random.Chance(0.3)});
     const auto metal = FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link);
@@ -202,7 +222,7 @@ TEST(TravelTest, ASolidOfRevolutionAgainstAnyLink) {
                   random.Below(static_cast<int>(machine.tree.links().size())), &*metal);
     pair.revolved = true;
     // A point on the axis: a turn about it does not move it anyway.
-    Hold(motions, pair, travel, [&](const Eigen::Isometry3d& X, const Eigen::Isometry3d& Y) {
+    Hold(motions, pair, travel, &held, [&](const Eigen::Isometry3d& X, const Eigen::Isometry3d& Y) {
       return (X * middle - Y * middle).norm();
     });
     if (HasFatalFailure()) FAIL() << "case " << i;

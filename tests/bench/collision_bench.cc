@@ -128,7 +128,10 @@ bool Run(const Options& options, const std::string& folder) {
   if (options.Wants("text")) {
     std::vector<bench::TextRun> runs{
         {options.spec.blocks / 10, 1}, {options.spec.blocks, 1}, {options.large, 1}};
-    if (options.jobs > 1) runs.push_back({options.spec.blocks, options.jobs});
+    if (options.jobs > 1) {
+      runs.push_back({options.spec.blocks, options.jobs});
+      runs.push_back({options.large, options.jobs});
+    }
     good = bench::PrintText(NCSIM_PROGRAM, options.spec, folder + "/text", runs) && good;
   }
   if (options.Wants("growth")) {
