@@ -370,6 +370,28 @@ TEST(SpindleStoppedTest, FeedWithTheSpindleStopped) {
   }
 }
 
+// Between feeds that turn, on which with no gouge asked for there is nothing else to look at.
+TEST(SpindleStoppedTest, OneFeedAmongMany) {
+  for (machine::GougeMode mode : {machine::GougeMode::kError, machine::GougeMode::kOff}) {
+    for (bool on : {true, false}) {
+      Rig rig = PartRig();
+      rig.check().gouge = mode;
+      rig.Feed(-20, 0, -0.05);
+      rig.Feed(-10, 0, -0.05);
+      rig.facts().spindle_on = on;
+      rig.Feed(0, 0, -0.05);
+      const int line = rig.motions().back().where.line;
+      rig.facts().spindle_on = true;
+      rig.Feed(10, 0, -0.05);
+      const std::vector<Finding> stopped = Of(rig.Run(), Rule::kSpindleStopped);
+      ASSERT_THAT(stopped, SizeIs(on ? 0 : 1));
+      if (!on) {
+        EXPECT_EQ(stopped[0].where.line, line);
+      }
+    }
+  }
+}
+
 TEST(RapidReferenceTest, KeepsWhatTheFeedsReached) {
   RapidReference reference;
   EXPECT_DOUBLE_EQ(reference.OnRapid(0, 0.0), 0.0);

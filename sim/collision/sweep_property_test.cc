@@ -8,14 +8,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <utility>
 
+#include "sim/base/units.h"
 #include "sim/collision/test_shapes.h"
 #include "sim/motion/test_motions.h"
 
 namespace ncsim::collision {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Sampled {
   double least = kInfinity;
@@ -284,6 +285,157 @@ TEST(SweepPropertyTest, WhatIsCrossedIsClear) {
   EXPECT_GT(crossed, 300U);
   EXPECT_GT(stopped, 50);
   EXPECT_LT(queries, 2000U);
+}
+
+/// A ball on a way past a needle's point, and what becomes of that way when its ends are looked at.
+class BallAndNeedle {
+ public:
+  BallAndNeedle(const motion::TestMachine& machine, const motion::Motion& motion, int link)
+      : tree_(&machine.tree),
+        five_axis_(*kinematics::FiveAxis::Make(*tree_, machine.spindle_link, machine.table_link)),
+        spindle_(machine.spindle_link),
+        link_(link),
+        motion_(&motion),
+        travel_(*tree_, &five_axis_, 120.0, {&motion}) {
+    machine::Tool tool;
+    tool.length = 120.0;
+    tool.flutes = BallProfile(4, 8);
+    ball_ = std::make_shared<const ToolBody>(tool, machine::BodyKind::kFlutes, spindle_);
+    path_.emplace(*tree_, ball_->extent, link, &five_axis_);
+    path_->revolved = true;
+    bound_.emplace(*path_, travel_);
+  }
+  BallAndNeedle(const BallAndNeedle&) = delete;
+  BallAndNeedle& operator=(const BallAndNeedle&) = delete;
+
+  /// Of the ball, in the needle's link.
+  Eigen::Vector3d Centre(double s) const {
+    const motion::JointVector q = motion_->At(s);
+    return tree_->Pose(link_, q).inverse() * tree_->Pose(spindle_, q) *
+           Eigen::Vector3d(0, 0, 116.0);
+  }
+  void SetNeedle(const Eigen::Vector3d& p) {
+    machine::SceneBody body;
+    body.name = "needle";
+    body.link = link_;
+    body.mesh = BoxMesh(p - Eigen::Vector3d::Constant(0.05), p + Eigen::Vector3d::Constant(0.05));
+    engine_ = MakeEngine(ball_, std::make_shared<const MeshBody>(body));
+  }
+  PairSweep MakeSweep() { return {*path_, engine_.get()}; }
+  PairSweep::Crossing Cross(PairSweep* sweep) const {
+    return sweep->Cross(travel_, *bound_, 0, Watch());
+  }
+  PairSweep::Crossing Cross() {
+    PairSweep sweep = MakeSweep();
+    return Cross(&sweep);
+  }
+  SweepResult Check(PairSweep* sweep) { return sweep->Check(*motion_, Watch(), {&*bound_, 0}); }
+  double Least() { return Sample(*motion_, MakeSweep(), engine_.get()).least; }
+  /// Does its end cover the motion by itself?
+  bool EndCovers() {
+    return MakeSweep().At(*motion_, {1.0, 0.0}, kInfinity)->upper > bound_->Between(0, 1);
+  }
+
+ private:
+  const kinematics::KinematicTree* tree_;
+  kinematics::FiveAxis five_axis_;
+  int spindle_, link_;
+  const motion::Motion* motion_;
+  motion::Travel travel_;
+  std::shared_ptr<const ToolBody> ball_;
+  std::optional<motion::PairPath> path_;
+  std::optional<motion::PairTravel> bound_;
+  std::unique_ptr<PairEngine> engine_;
+};
+
+// One motion, which neither of its ends covers: what both together, or the middle of its box, say
+// of it.
+TEST(SweepPropertyTest, WhatStandsBetweenTwoLooksIsClear) {
+  motion::Random random(78);
+  int together = 0, in_box = 0, hit = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const motion::TestMachine machine = kinematics::RandomMachine(&random);
+    const auto frame = std::make_shared<motion::TcpFrame>(motion::TcpFrame{
+        *kinematics::FiveAxis::Make(machine.tree, machine.spindle_link, machine.table_link), 120.0,
+        0.0});
+    const motion::Motion motion = motion::RandomMotion(&random, motion::kPathKinds[i % 6], machine,
+                                                       frame, random.Uniform(0.01, 0.2));
+    BallAndNeedle scene(machine, motion, random.Chance(0.7) ? machine.table_link : 0);
+    const double off = random.Uniform(3.9, random.Chance(0.5) ? 8.0 : 60.0);
+    scene.SetNeedle(scene.Centre(random.Uniform(0.1, 0.9)) + off * random.Direction());
+    const double least = scene.Least();
+    hit += least <= 0.0;
+    const PairSweep::Crossing crossing = scene.Cross();
+    if (crossing.end == 1) {
+      ASSERT_GT(crossing.least, 0.0);
+      ASSERT_GE(least, crossing.least - 1e-6) << "case " << i;
+      together += !scene.EndCovers();
+    }
+    PairSweep sweep = scene.MakeSweep();
+    if (!sweep.StartsClear(motion)) continue;
+    const std::uint64_t looks = sweep.queries();
+    const SweepResult result = scene.Check(&sweep);
+    if (result.contact) continue;
+    ASSERT_GT(least, 0.0) << "case " << i;
+    ASSERT_GE(least, result.least.lower - 1e-6) << "case " << i;
+    in_box += std::holds_alternative<motion::DogLeg>(motion.path) && sweep.queries() == looks + 1;
+  }
+  EXPECT_GT(together, 50);
+  EXPECT_GT(in_box, 30);
+  EXPECT_GT(hit, 50);
+}
+
+// A straight way of 40 mm past a needle that is 32 mm from the ball at both ends. And ways that
+// bulge toward one that is as far from their ends, and touch it.
+TEST(SweepPropertyTest, EndsCoverNoBulgeBetweenThem) {
+  const motion::TestMachine machine = kinematics::TrunnionBC({0, 0, 0}, {0, 0, 0});
+  const motion::JointVector q0 = motion::JointVector::Zero(5);
+  motion::JointVector q1 = q0;
+  q1[0] = 40.0;
+  const motion::Motion straight = motion::MakeMotion(motion::AxisLinear{q0, q1});
+  BallAndNeedle beside(machine, straight, machine.table_link);
+  beside.SetNeedle(beside.Centre(0.5) + Eigen::Vector3d(0, 30, 0));
+  EXPECT_FALSE(beside.EndCovers());
+  const PairSweep::Crossing crossing = beside.Cross();
+  EXPECT_EQ(crossing.end, 1U);
+  EXPECT_LE(crossing.least, 26.0);  // 30 - 4
+  EXPECT_GT(crossing.least, 0.0);
+
+  motion::AxisArc arc{q0, q1, {20, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {}, {}, 20.0, 0.0, kPi, {0, 1, 2}};
+  arc.pitch = arc.end_error = Eigen::Vector3d::Zero();
+  motion::DogLeg corner{q0, q1, motion::JointVector::Zero(5), motion::JointVector::Zero(5)};
+  corner.q1[1] = 40.0;
+  corner.duration[0] = 0.1;
+  corner.duration[1] = 1.0;
+  const std::pair<motion::Motion, double> bulges[] = {{motion::MakeMotion(arc), 0.5},
+                                                      {motion::MakeMotion(corner), 0.1}};
+  for (const auto& [motion, s] : bulges) {
+    BallAndNeedle scene(machine, motion, machine.table_link);
+    const Eigen::Vector3d chord_middle = 0.5 * (scene.Centre(0.0) + scene.Centre(1.0));
+    const Eigen::Vector3d out = (scene.Centre(s) - chord_middle).normalized();
+    scene.SetNeedle(scene.Centre(s) + 3.9 * out);
+    EXPECT_LT(scene.Least(), 0.0) << "it must be able to touch";
+    EXPECT_FALSE(scene.EndCovers());
+    EXPECT_EQ(scene.Cross().end, 0U);
+  }
+}
+
+// Along X past a needle that it touches half way; and along Y, to the needle. What was seen at the
+// end of the one way is nothing to the other.
+TEST(SweepPropertyTest, WhatWasSeenOfOneRunIsNotTheNextOnes) {
+  const motion::TestMachine machine = kinematics::TrunnionBC({0, 0, 0}, {0, 0, 0});
+  const auto along = [](double x0, double y0, double x1, double y1) {
+    motion::AxisLinear way{motion::JointVector::Zero(5), motion::JointVector::Zero(5)};
+    way.q0.head<2>() << x0, y0;
+    way.q1.head<2>() << x1, y1;
+    return motion::MakeMotion(way);
+  };
+  const motion::Motion past = along(-30, 0, 30, 0), at = along(0, -9, 0, 0);
+  BallAndNeedle first(machine, past, machine.table_link), next(machine, at, machine.table_link);
+  first.SetNeedle(next.Centre(1.0) + 3.9 * (next.Centre(1.0) - next.Centre(0.0)).normalized());
+  PairSweep sweep = first.MakeSweep();
+  EXPECT_EQ(first.Cross(&sweep).end, 0U);
+  EXPECT_EQ(next.Cross(&sweep).end, 0U);
 }
 
 }  // namespace
