@@ -49,7 +49,7 @@ double ProfileDistance::Distance(const Vector3d& p) const {
   for (const ConvexProfile& part : shape_->parts()) {
     least = std::min(least, part.At(local.z, local.r).distance);
   }
-  if (least > kInterface || shape_->convex() || shape_->swept()) return least;
+  if (least > kInterface || shape_->convex()) return least;
   return shape_->exact().Distance(local.z, local.r);
 }
 
@@ -281,7 +281,7 @@ void ProfileDistance::PushPiece(const Piece& piece, double at_least) {
   const double distance = Distance(seen);
   See(centre, distance);
   double lower = std::max(at_least, distance - radius);
-  if (distance < 0.0 && !shape_->swept() && !moves()) {
+  if (distance < 0.0 && !moves()) {
     const Vector3d nearest = NearestOnSurface(centre);
     double deepest = 0.0;
     for (const Vector3d& v : piece.triangle) deepest = std::max(deepest, (v - nearest).norm());

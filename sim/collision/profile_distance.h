@@ -58,9 +58,10 @@ class ProfileDistance {
   Interval Surface(const RevolvedPose& pose, const DistanceGoal& goal);
 
   /// The same over all of a way of the solid, which goes from `pose` straight on by `way` (mm, in
-  /// the mesh's frame) and does not turn. What it passes through is convex where it is, so nothing
-  /// is left between poses. Depths are not worked out: where the bodies overlap, `lower` is below 0
-  /// and may be far off.
+  /// the mesh's frame) and does not turn: the distance to a convex part is a convex function of the
+  /// point and the place on the way, so there is nothing between poses that is not looked at. Where
+  /// the mesh gets into a solid that is not convex, `lower` is below 0, and how far is not worked
+  /// out.
   Interval AllTheWay(const RevolvedPose& pose, const Eigen::Vector3d& way,
                      const DistanceGoal& goal);
 
