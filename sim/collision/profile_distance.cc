@@ -316,6 +316,7 @@ Interval ProfileDistance::AllTheWay(const RevolvedPose& pose, const Vector3d& wa
 Interval ProfileDistance::Search(const RevolvedPose& pose, const Vector3d& half_way,
                                  const DistanceGoal& goal) {
   if (tree_->empty()) return {kInfinity, kInfinity};
+  if (!pose.tip.allFinite() || !pose.axis.allFinite() || !half_way.allFinite()) return {};
   pose_ = pose;
   half_way_ = half_way;
   solid_ = &wide_.Place(pose.tip, pose.axis, *tree_, half_way);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "sim/base/units.h"
 #include "sim/collision/test_shapes.h"
 
 namespace ncsim::collision {
@@ -256,6 +257,26 @@ TEST(ProfileDistanceTest, AllTheWayIsTheLeastOfItsPoses) {
   }
   EXPECT_GT(clear, 300);
   EXPECT_GT(touching, 200);
+}
+
+TEST(ProfileDistanceTest, WhatIsNoNumberIsNoClearance) {
+  const TriangleTree tree(BoxMesh({-50, -50, -20}, {50, 50, 0}));
+  const ProfileShape ball(BallProfile(3, 30));
+  ProfileDistance kernel(ball, tree);
+  DistanceGoal goal;
+  goal.max_evaluations = 1000;
+  const Vector3d up(0, 0, 1);
+  for (const double wrong : {std::nan(""), kInfinity, -kInfinity}) {
+    const Vector3d place(3, wrong, 40);
+    EXPECT_LE(kernel.Surface({place, up}, goal).lower, 0.0) << wrong;
+    EXPECT_LE(kernel.Surface({{3, 3, 40}, {0, wrong, 1}}, goal).lower, 0.0) << wrong;
+    EXPECT_LE(kernel.AllTheWay({{3, 3, 40}, up}, place, goal).lower, 0.0) << wrong;
+  }
+  // Beyond what a float holds: through the box, from far to far.
+  for (const double far : {1e30, 1e38, 1e39, 1e200}) {
+    EXPECT_LE(kernel.AllTheWay({{-far, 0, -10}, up}, {2 * far, 0, 0}, goal).lower, 0.0) << far;
+    EXPECT_LE(kernel.Surface({{-far, 0, -10}, up}, goal).lower, far) << far;
+  }
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ class WideKernel {
     explicit Sorted(float enough) : enough_(enough) {}
     void Add(const Float& bound, int i, float* lower) {
       __builtin_memcpy(lower + i, &bound, sizeof(bound));
-      const Mask near = bound < enough_;
+      const Mask near = ~(bound >= enough_);  // what is no number is not far
       near_.lanes |= Bits(near) << i;
       const Float none = bound - bound + kFar;
       const Float passed = near ? none : bound;
