@@ -94,27 +94,4 @@ ConvexProfile::Support ConvexProfile::At(double z, double r) const {
   return best;
 }
 
-ConvexProfile ConvexProfile::Swept(double length) const {
-  const Vector2d way(length, 0.0);
-  const Vector2d outward(0.0, 1.0);
-  ConvexProfile swept;
-  for (const Line& line : lines_) {
-    swept.lines_.push_back({line.normal, line.offset + std::max(0.0, line.normal.dot(way))});
-  }
-  for (const Round& round : rounds_) {
-    // From one place to the other there is a cylinder between the two halves.
-    if (round.from.x() <= 0.0 && round.to.x() >= 0.0) {
-      swept.lines_.push_back({outward, round.centre.y() + round.radius});
-    }
-    if (round.from.x() < 0.0 && round.to.x() > 0.0) {
-      swept.rounds_.push_back({round.centre, round.radius, round.from, outward});
-      swept.rounds_.push_back({round.centre + way, round.radius, outward, round.to});
-    } else {
-      swept.rounds_.push_back(round);
-      if (round.to.x() > 0.0) swept.rounds_.back().centre += way;
-    }
-  }
-  return swept;
-}
-
 }  // namespace ncsim::collision

@@ -39,9 +39,6 @@ class ConvexProfile {
   explicit ConvexProfile(const std::vector<machine::ProfileElement>& elements);
 
   Support At(double z, double r) const;
-  /// What the solid passes through on its way along its axis, toward +z, by `length` >= 0 mm: every
-  /// supporting line that faces that way goes along, and those of a corner part where it turns.
-  ConvexProfile Swept(double length) const;
   const std::vector<Line>& lines() const { return lines_; }
   const std::vector<Round>& rounds() const { return rounds_; }
 

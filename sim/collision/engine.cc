@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "sim/collision/mesh_distance.h"
@@ -14,8 +13,8 @@ namespace {
 
 using Eigen::Isometry3d;
 
-constexpr std::size_t kMostSwept = 64;
-constexpr double kAlongBudget = 0.2;  // mm beyond what is needed of a whole way
+constexpr double kWayBudget = 0.2;  // mm beyond what is needed of a whole way
+constexpr int kWayEvaluations = 1000;
 
 class ToolEngine final : public PairEngine {
  public:
@@ -25,18 +24,16 @@ class ToolEngine final : public PairEngine {
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     return kernel_.Surface(ToolPose(X_BA, a_->length), goal);
   }
-  // Where the solid was when it stood nearest to its tip, it is swept from; and by whole
-  // millimetres, since a program comes back to the same ways.
-  std::optional<double> ClearanceAlong(const Isometry3d& X_BA, double along, double need) override {
+  std::optional<double> ClearanceAllTheWay(const Isometry3d& X_BA, const Eigen::Vector3d& way,
+                                           double need) override {
     if (need < 0.0 && !a_->shape.convex()) return std::nullopt;
-    RevolvedPose pose = ToolPose(X_BA, a_->length);
-    pose.tip -= std::max(0.0, along) * pose.axis;
     DistanceGoal goal;
     goal.floor = need;
     goal.relative_gap = 0.2;
-    goal.stop_above = need + kAlongBudget;
+    goal.stop_above = need + kWayBudget;
     goal.stop_below = need;
-    return Swept(std::ceil(std::abs(along))).kernel.Surface(pose, goal).lower;
+    goal.max_evaluations = kWayEvaluations;
+    return kernel_.AllTheWay(ToolPose(X_BA, a_->length), way, goal).lower;
   }
   bool Contained(const Isometry3d& X_BA) override {
     return kernel_.Contained(ToolPose(X_BA, a_->length));
@@ -62,22 +59,9 @@ class ToolEngine final : public PairEngine {
   double floor() const override { return -a_->shape.inradius(); }
 
  private:
-  /// What the tool sweeps on its way along its axis.
-  struct AlongAxis {
-    AlongAxis(const ProfileShape& body, double length, const TriangleTree& tree)
-        : shape(body.Swept(length)), kernel(shape, tree) {}
-    ProfileShape shape;
-    ProfileDistance kernel;
-  };
-  AlongAxis& Swept(double length) {
-    if (swept_.size() >= kMostSwept) swept_.clear();
-    return swept_.try_emplace(length, a_->shape, length, b_->tree).first->second;
-  }
-
   std::shared_ptr<const ToolBody> a_;
   std::shared_ptr<const MeshBody> b_;
   ProfileDistance kernel_;
-  std::map<double, AlongAxis> swept_;  // by length, mm
 };
 
 class SweptEngine final : public PairEngine {
@@ -88,8 +72,9 @@ class SweptEngine final : public PairEngine {
   std::optional<Interval> Clearance(const Isometry3d& X_BA, const DistanceGoal& goal) override {
     return kernel_.Surface(Pose(X_BA), goal);
   }
-  std::optional<double> ClearanceAlong(const Isometry3d& /*X_BA*/, double /*along*/,
-                                       double /*need*/) override {
+  std::optional<double> ClearanceAllTheWay(const Isometry3d& /*X_BA*/,
+                                           const Eigen::Vector3d& /*way*/,
+                                           double /*need*/) override {
     return std::nullopt;
   }
   bool Contained(const Isometry3d& X_BA) override { return kernel_.Contained(Pose(X_BA)); }
@@ -131,8 +116,9 @@ class MeshEngine final : public PairEngine {
     result.upper = std::min(result.upper, *distance);
     return result;
   }
-  std::optional<double> ClearanceAlong(const Isometry3d& /*X_BA*/, double /*along*/,
-                                       double /*need*/) override {
+  std::optional<double> ClearanceAllTheWay(const Isometry3d& /*X_BA*/,
+                                           const Eigen::Vector3d& /*way*/,
+                                           double /*need*/) override {
     return std::nullopt;
   }
   bool Contained(const Isometry3d& X_BA) override {

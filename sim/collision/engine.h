@@ -21,11 +21,11 @@ class PairEngine {
   /// Negative where the engine knows depths. nullopt: cannot be certified at this pose.
   virtual std::optional<Interval> Clearance(const Eigen::Isometry3d& X_BA,
                                             const DistanceGoal& goal) = 0;
-  /// A lower bound of Clearance over the whole way of A along its own axis, from X_BA on by `along`
-  /// mm toward its Z (back where negative). Worth nothing unless it is above `need`. nullopt where
-  /// no such way is known.
-  virtual std::optional<double> ClearanceAlong(const Eigen::Isometry3d& X_BA, double along,
-                                               double need) = 0;
+  /// A lower bound of Clearance over all of a straight way of A, from X_BA on by `way` (mm, in B's
+  /// frame), without a turn. Worth nothing unless it is above `need`. nullopt where no such way is
+  /// known.
+  virtual std::optional<double> ClearanceAllTheWay(const Eigen::Isometry3d& X_BA,
+                                                   const Eigen::Vector3d& way, double need) = 0;
   /// With no contact of the surfaces: is one body inside the other?
   virtual bool Contained(const Eigen::Isometry3d& X_BA) = 0;
   /// Clearance of the SOLIDS; of a pair that has no depth, 0 stands for any contact.

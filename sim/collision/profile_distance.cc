@@ -49,7 +49,7 @@ double ProfileDistance::Distance(const Vector3d& p) const {
   for (const ConvexProfile& part : shape_->parts()) {
     least = std::min(least, part.At(local.z, local.r).distance);
   }
-  if (least > kInterface || shape_->convex() || shape_->swept()) return least;
+  if (least > kInterface || shape_->convex()) return least;
   return shape_->exact().Distance(local.z, local.r);
 }
 
@@ -102,12 +102,14 @@ void ProfileDistance::Expand(const Cell& cell) {
     case Kind::kNode:
       return cell.index < 0 ? ExpandLeaf(~cell.index, cell.lower)
                             : ExpandNode(tree_->node(cell.index), cell.lower);
-    case Kind::kTriangle:
-      return ExpandTriangle(tree_->triangle(cell.index), cell.lower, true);
+    case Kind::kTriangle: {
+      const double half = moves() ? 1.0 : 0.0;
+      return ExpandPiece({tree_->triangle(cell.index), -half, half}, cell.lower, true);
+    }
     default:
       free_pieces_.push_back(cell.index);
-      const TriangleTree::Triangle piece = pieces_[static_cast<std::size_t>(cell.index)];
-      return ExpandTriangle(piece, cell.lower, cell.kind == Kind::kConvexPiece);
+      const Piece piece = pieces_[static_cast<std::size_t>(cell.index)];
+      return ExpandPiece(piece, cell.lower, cell.kind == Kind::kConvexPiece);
   }
 }
 
@@ -185,55 +187,104 @@ ProfileDistance::Tangent ProfileDistance::TangentAt(const ConvexProfile& convex,
            {most, support.curvature, around}}};
 }
 
+// A point p is to the solid, t half ways on, as p - t half_way_ is to where it stands: a function
+// of p and t that is convex too, and as its planes bound it over the triangle, so over the way. By
+// turns to the least over the one and the other.
+double ProfileDistance::LeastOnWay(const ConvexProfile& convex, bool is_part, const Piece& piece) {
+  constexpr int kSteps = 24;
+  const TriangleTree::Triangle& triangle = piece.triangle;
+  const bool is_whole = is_part && shape_->convex();
+  TriangleDescent descent(triangle);
+  double t = piece.middle();
+  double lower = -kInfinity;
+  for (int i = 0; i < kSteps; ++i) {
+    const Vector3d p = descent.at();
+    const Vector3d seen = p - t * half_way_;
+    const Tangent tangent = TangentAt(convex, seen);
+    See(p, is_part ? tangent.distance : Distance(seen));
+    if (is_part && !is_whole && tangent.distance <= kInterface) return -kInfinity;
+    const Vector3d& slope = tangent.model.slope;
+    const double along = -slope.dot(half_way_);
+    lower = std::max(lower, tangent.distance +
+                                std::min({slope.dot(triangle[0] - p), slope.dot(triangle[1] - p),
+                                          slope.dot(triangle[2] - p)}) +
+                                std::min(along * (piece.begin - t), along * (piece.end - t)));
+    if (lower >= enough_ || upper_ < goal_.stop_below) return lower;
+    if (i % 2 == 1) {
+      descent.Step(tangent.model);
+      continue;
+    }
+    double bend = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double part = tangent.model.direction[k].dot(half_way_);
+      bend += tangent.model.bend[k] * part * part;
+    }
+    t = std::clamp(t - along / std::max(bend, 1e-300), piece.begin, piece.end);
+  }
+  return lower;
+}
+
 // Where the triangle may be inside a solid that is not convex, its parts bound nothing.
-double ProfileDistance::LeastOver(const TriangleTree::Triangle& piece) {
+double ProfileDistance::LeastOver(const Piece& piece) {
+  const auto least_over = [&](const ConvexProfile& convex, bool is_part) {
+    return moves() ? LeastOnWay(convex, is_part, piece)
+                   : LeastOver(convex, is_part, piece.triangle);
+  };
   double least = kInfinity;
   for (const ConvexProfile& part : shape_->parts()) {
-    least = std::min(least, LeastOver(part, true, piece));
-    if (least <= kInterface && !shape_->convex()) return LeastOver(shape_->hull(), false, piece);
+    least = std::min(least, least_over(part, true));
+    if (least <= kInterface && !shape_->convex()) return least_over(shape_->hull(), false);
   }
   return least;
 }
 
-void ProfileDistance::ExpandTriangle(const TriangleTree::Triangle& piece, double lower,
-                                     bool solve) {
+// What bounds it too weakly is halved: the way, or the longest side.
+void ProfileDistance::ExpandPiece(const Piece& piece, double lower, bool solve) {
   if (solve) lower = std::max(lower, LeastOver(piece));
   if (lower >= enough_ || upper_ < goal_.stop_below) {
     passed_ = std::min(passed_, lower);
     return;
   }
+  const TriangleTree::Triangle& triangle = piece.triangle;
   std::size_t longest = 0;
   double length = -1.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double edge = (piece[(k + 1) % 3] - piece[k]).squaredNorm();
+    const double edge = (triangle[(k + 1) % 3] - triangle[k]).squaredNorm();
     if (edge > length) {
       length = edge;
       longest = k;
     }
   }
-  const Vector3d& a = piece[longest];
-  const Vector3d& b = piece[(longest + 1) % 3];
-  const Vector3d& c = piece[(longest + 2) % 3];
+  const double way = piece.end - piece.begin;
+  if (way * way * half_way_.squaredNorm() > length) {
+    PushPiece({triangle, piece.begin, piece.middle()}, lower);
+    PushPiece({triangle, piece.middle(), piece.end}, lower);
+    return;
+  }
+  const Vector3d& a = triangle[longest];
+  const Vector3d& b = triangle[(longest + 1) % 3];
+  const Vector3d& c = triangle[(longest + 2) % 3];
   const Vector3d middle = 0.5 * (a + b);
-  PushPiece({a, middle, c}, lower);
-  PushPiece({middle, b, c}, lower);
+  PushPiece({{a, middle, c}, piece.begin, piece.end}, lower);
+  PushPiece({{middle, b, c}, piece.begin, piece.end}, lower);
 }
 
 // The distance changes by no more than the way. And no point is deeper than it is far from any one
 // point of the surface; that way is longest to a corner.
-void ProfileDistance::PushPiece(const TriangleTree::Triangle& piece, double at_least) {
+void ProfileDistance::PushPiece(const Piece& piece, double at_least) {
   ++evaluations_;
-  const Vector3d centre = (piece[0] + piece[1] + piece[2]) / 3.0;
+  const Vector3d centre = (piece.triangle[0] + piece.triangle[1] + piece.triangle[2]) / 3.0;
+  const Vector3d seen = centre - piece.middle() * half_way_;
   double squared = 0.0;
-  for (const Vector3d& v : piece) squared = std::max(squared, (v - centre).squaredNorm());
-  const double radius = std::sqrt(squared);
-  const double distance = Distance(centre);
+  for (const Vector3d& v : piece.triangle) squared = std::max(squared, (v - centre).squaredNorm());
+  const double radius = std::sqrt(squared) + 0.5 * (piece.end - piece.begin) * half_way_.norm();
+  const double distance = Distance(seen);
   See(centre, distance);
   double lower = std::max(at_least, distance - radius);
-  if (distance < 0.0 && !shape_->swept()) {
+  if (distance < 0.0 && !moves()) {
     const Vector3d nearest = NearestOnSurface(centre);
     double deepest = 0.0;
-    for (const Vector3d& v : piece) deepest = std::max(deepest, (v - nearest).norm());
+    for (const Vector3d& v : piece.triangle) deepest = std::max(deepest, (v - nearest).norm());
     lower = std::max(lower, -deepest);
   }
   if (lower >= enough_) {
@@ -253,9 +304,22 @@ void ProfileDistance::PushPiece(const TriangleTree::Triangle& piece, double at_l
 }
 
 Interval ProfileDistance::Surface(const RevolvedPose& pose, const DistanceGoal& goal) {
+  return Search(pose, Vector3d::Zero(), goal);
+}
+
+Interval ProfileDistance::AllTheWay(const RevolvedPose& pose, const Vector3d& way,
+                                    const DistanceGoal& goal) {
+  const Vector3d half_way = 0.5 * way;
+  return Search({pose.tip + half_way, pose.axis}, half_way, goal);
+}
+
+Interval ProfileDistance::Search(const RevolvedPose& pose, const Vector3d& half_way,
+                                 const DistanceGoal& goal) {
   if (tree_->empty()) return {kInfinity, kInfinity};
+  if (!pose.tip.allFinite() || !pose.axis.allFinite() || !half_way.allFinite()) return {};
   pose_ = pose;
-  solid_ = &wide_.Place(pose.tip, pose.axis, *tree_);
+  half_way_ = half_way;
+  solid_ = &wide_.Place(pose.tip, pose.axis, *tree_, half_way);
   goal_ = goal;
   passed_ = kInfinity;
   SetUpper(kInfinity);

@@ -57,6 +57,14 @@ class ProfileDistance {
 
   Interval Surface(const RevolvedPose& pose, const DistanceGoal& goal);
 
+  /// The same over all of a way of the solid, which goes from `pose` straight on by `way` (mm, in
+  /// the mesh's frame) and does not turn: the distance to a convex part is a convex function of the
+  /// point and the place on the way, so there is nothing between poses that is not looked at. Where
+  /// the mesh gets into a solid that is not convex, `lower` is below 0, and how far is not worked
+  /// out.
+  Interval AllTheWay(const RevolvedPose& pose, const Eigen::Vector3d& way,
+                     const DistanceGoal& goal);
+
   /// The same over all points of the mesh's SOLID: minus the least amount by which the profile must
   /// shrink to clear it. From any common inner point the way toward the axis never leads to a
   /// greater distance and ends on the mesh's surface or on the axis, so beside the surface only the
@@ -90,6 +98,13 @@ class ProfileDistance {
     double distance = 0.0;
     QuadraticModel model;  ///< Its slope bounds the distance from below.
   };
+  /// Of a triangle, while the solid is on this part of its way: -1 to 1, from the middle.
+  struct Piece {
+    TriangleTree::Triangle triangle;
+    double begin = 0.0, end = 0.0;
+
+    double middle() const { return 0.5 * (begin + end); }
+  };
   Local ToLocal(const Eigen::Vector3d& p) const;
   double Distance(const Eigen::Vector3d& p) const;
   void See(const Eigen::Vector3d& p, double distance);
@@ -102,18 +117,23 @@ class ProfileDistance {
   void Expand(const Cell& cell);
   void ExpandNode(const TriangleTree::Node& node, double at_least);
   void ExpandLeaf(int leaf, double at_least);
-  void ExpandTriangle(const TriangleTree::Triangle& piece, double lower, bool solve);
-  void PushPiece(const TriangleTree::Triangle& piece, double at_least);
+  Interval Search(const RevolvedPose& pose, const Eigen::Vector3d& half_way,
+                  const DistanceGoal& goal);
+  bool moves() const { return !half_way_.isZero(0.0); }
+  void ExpandPiece(const Piece& piece, double lower, bool solve);
+  void PushPiece(const Piece& piece, double at_least);
   Tangent TangentAt(const ConvexProfile& convex, const Eigen::Vector3d& p);
   double LeastOver(const ConvexProfile& convex, bool is_part, const TriangleTree::Triangle& piece);
-  double LeastOver(const TriangleTree::Triangle& piece);
+  double LeastOnWay(const ConvexProfile& convex, bool is_part, const Piece& piece);
+  double LeastOver(const Piece& piece);
 
   const ProfileShape* shape_;
   const TriangleTree* tree_;
   WideShape wide_;
 
   const WideSolid* solid_ = nullptr;
-  RevolvedPose pose_;
+  RevolvedPose pose_;  // in the middle of its way
+  Eigen::Vector3d half_way_ = Eigen::Vector3d::Zero();
   DistanceGoal goal_;
   double upper_ = 0.0;
   double enough_ = 0.0;       // a bound that is no lower needs no improving
@@ -121,7 +141,7 @@ class ProfileDistance {
   double passed_ = 0.0;       // least bound of what was not looked into
   int evaluations_ = 0;
   std::vector<Cell> heap_;
-  std::vector<TriangleTree::Triangle> pieces_;
+  std::vector<Piece> pieces_;
   std::vector<int> free_pieces_;
   std::optional<Eigen::Vector3d> witness_;  // a point of the mesh at upper_, or of the last search
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "sim/base/units.h"
 #include "sim/collision/test_shapes.h"
 
 namespace ncsim::collision {
@@ -176,6 +177,105 @@ TEST(ProfileDistanceTest, SliversStayWhereTheyAre) {
     const Vector3d& p = *kernel.witness();
     const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
     ASSERT_LT((p - a - t * (b - a)).norm(), 2.0 * thin + 1e-9) << i;
+  }
+}
+
+// Over a plate, along it and past its corner edge; the truth is that of the nearest place.
+TEST(ProfileDistanceTest, AllTheWayInClosedForm) {
+  const TriangleTree tree(BoxMesh({-50, -50, -20}, {50, 50, 0}));
+  const ProfileShape ball(BallProfile(3, 30));
+  const ProfileShape end(CylinderProfile(0, 30, 6));
+  struct Case {
+    Vector3d tip, way;
+    double ball, end;
+  };
+  const std::vector<Case> cases = {
+      {{-400, 3, 0.5}, {800, 0, 0}, 0.5, 0.5},
+      {{60, -300, -10}, {0, 600, 0}, 7.0, 4.0},
+      {{54, -300, 0}, {0, 600, 0}, 2.0, 0.0},  // 3-4-5; the rim passes over the edge
+      {{120, 20, 30}, {-60, 0, -30}, std::hypot(10, 3) - 3, 4.0},  // to the side of the edge
+      {{7, 7, 100}, {0, 0, -99.75}, 0.25, 0.25},                   // down, along the axis
+      {{7, 7, 0.25}, {0, 0, 99.75}, 0.25, 0.25},                   // and up
+      {{-400, 3, -1.5}, {800, 0, 0}, -1.5, -1.5},                  // through it
+  };
+  for (const Case& c : cases) {
+    for (const bool is_ball : {true, false}) {
+      ProfileDistance kernel(is_ball ? ball : end, tree);
+      const double truth = is_ball ? c.ball : c.end;
+      const Interval d = kernel.AllTheWay(ToolPose(Upright(c.tip), kLength), c.way, {});
+      EXPECT_LE(d.lower, truth + 1e-9) << c.tip.transpose();
+      EXPECT_GE(d.upper, truth - 1e-9) << c.tip.transpose();
+      EXPECT_LT(d.upper - d.lower, 0.0021) << c.tip.transpose();
+    }
+  }
+}
+
+// No pose of a way is nearer than what is said of it, and some is hardly further.
+TEST(ProfileDistanceTest, AllTheWayIsTheLeastOfItsPoses) {
+  const TriangleTree trees[] = {TriangleTree(SphereMesh({5, -3, 40}, 40, 12)),
+                                TriangleTree(BoxMesh({-30, -0.05, 0}, {30, 0.05, 60})),
+                                TriangleTree(BoxMesh({0, 0, 0}, {0.1, 0.1, 80}))};
+  const ProfileShape shapes[] = {
+      ProfileShape(CylinderProfile(0, 40, 6)), ProfileShape(BallProfile(3, 20)),
+      ProfileShape(PolyProfile({{0, 0}, {4, 4}, {9, 4}, {20, 1}, {20, 0}})),
+      ProfileShape(PolyProfile({{20, 0}, {20, 20}, {50, 25}, {50, 31.5}, {60, 22}, {90, 0}}))};
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int clear = 0, touching = 0;
+  for (int i = 0; i < 1200; ++i) {
+    const TriangleTree& tree = trees[i % 3];
+    const ProfileShape& shape = shapes[i % 4];
+    ProfileDistance kernel(shape, tree), poses(shape, tree);
+    const Eigen::Isometry3d X = RandomPose(random, 60);
+    const RevolvedPose begin = {X.translation(), X.linear().col(2)};
+    Vector3d way = 120 * unit(random) * X.linear().col(0);
+    if (i % 5 == 0) way = 90 * (unit(random) - 0.5) * begin.axis;
+    if (i % 7 == 0) way += 30 * begin.axis;
+    constexpr int kSteps = 400;
+    double least = 1e9;
+    for (int k = 0; k <= kSteps; ++k) {
+      DistanceGoal goal;
+      goal.stop_above = least;
+      const double at = static_cast<double>(k) / kSteps;
+      least = std::min(least, poses.Surface({begin.tip + at * way, begin.axis}, goal).upper);
+    }
+    DistanceGoal goal;
+    goal.stop_below = 0.0;
+    const Interval d = kernel.AllTheWay(begin, way, goal);
+    ASSERT_LE(d.lower, least) << i;
+    if (least <= 0.0) {
+      ++touching;
+      ASSERT_LE(d.lower, 0.0) << i;
+      continue;
+    }
+    ++clear;
+    // The nearest pose is between two of the steps.
+    ASSERT_GE(d.upper, least - 0.003 - 0.5 * way.norm() / kSteps) << i;
+    if (d.upper > 0.0) {
+      ASSERT_LT(d.upper - d.lower, 0.0021) << i;
+    }
+  }
+  EXPECT_GT(clear, 300);
+  EXPECT_GT(touching, 200);
+}
+
+TEST(ProfileDistanceTest, WhatIsNoNumberIsNoClearance) {
+  const TriangleTree tree(BoxMesh({-50, -50, -20}, {50, 50, 0}));
+  const ProfileShape ball(BallProfile(3, 30));
+  ProfileDistance kernel(ball, tree);
+  DistanceGoal goal;
+  goal.max_evaluations = 1000;
+  const Vector3d up(0, 0, 1);
+  for (const double wrong : {std::nan(""), kInfinity, -kInfinity}) {
+    const Vector3d place(3, wrong, 40);
+    EXPECT_LE(kernel.Surface({place, up}, goal).lower, 0.0) << wrong;
+    EXPECT_LE(kernel.Surface({{3, 3, 40}, {0, wrong, 1}}, goal).lower, 0.0) << wrong;
+    EXPECT_LE(kernel.AllTheWay({{3, 3, 40}, up}, place, goal).lower, 0.0) << wrong;
+  }
+  // Beyond what a float holds: through the box, from far to far.
+  for (const double far : {1e30, 1e38, 1e39, 1e200}) {
+    EXPECT_LE(kernel.AllTheWay({{-far, 0, -10}, up}, {2 * far, 0, 0}, goal).lower, 0.0) << far;
+    EXPECT_LE(kernel.Surface({{-far, 0, -10}, up}, goal).lower, far) << far;
   }
 }
 

@@ -206,17 +206,6 @@ ProfileShape::ProfileShape(const machine::Profile& profile) {
       -MinimiseOnAxis(z_min_, z_max_, 1e-3, -std::numeric_limits<double>::infinity(), &inradius_z_);
 }
 
-ProfileShape ProfileShape::Swept(double length) const {
-  ProfileShape swept;
-  swept.swept_ = true;
-  swept.hull_ = hull_.Swept(length);
-  for (const ConvexProfile& part : parts_) swept.parts_.push_back(part.Swept(length));
-  swept.z_min_ = z_min_;
-  swept.z_max_ = z_max_ + length;
-  swept.r_max_ = r_max_;
-  return swept;
-}
-
 double ProfileShape::LeastOnAxis(double z0, double z1) const {
   z0 = std::max(z0, z_min_);
   z1 = std::min(z1, z_max_);

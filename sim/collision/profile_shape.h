@@ -48,12 +48,6 @@ class ProfileShape {
   /// faces.
   explicit ProfileShape(const machine::Profile& profile);
 
-  /// What the solid passes through on its way along its axis, toward +z, by `length` >= 0 mm. Knows
-  /// its parts and its hull only: depths inside it are those of the parts.
-  ProfileShape Swept(double length) const;
-  bool swept() const { return swept_; }
-
-  /// Not of a swept solid; nor are the inradius and what is least on the axis.
   const ProfileChain& exact() const { return exact_; }
   /// One part, which is the hull: then its distance is exact inside, too.
   bool convex() const { return parts_.size() == 1; }
@@ -72,7 +66,6 @@ class ProfileShape {
   double LeastOnAxis(double z0, double z1) const;
 
  private:
-  ProfileShape() = default;
   double MinimiseOnAxis(double z0, double z1, double gap, double stop, double* at) const;
 
   ProfileChain exact_;
@@ -80,7 +73,6 @@ class ProfileShape {
   std::vector<ConvexProfile> parts_;
   double z_min_ = 0.0, z_max_ = 0.0, r_max_ = 0.0;
   double inradius_ = 0.0, inradius_z_ = 0.0;
-  bool swept_ = false;
 };
 
 /// The profile's elements with flat faces added where it does not start or end on the axis, and

@@ -82,47 +82,5 @@ TEST(ProfileShapeTest, AgreesWithDenseSampling) {
   }
 }
 
-// What a solid sweeps along its axis is as far from a point as the nearest of its places; inside,
-// no less deep.
-TEST(ProfileShapeTest, SweptIsTheUnionOfItsPlaces) {
-  const machine::Profile profiles[] = {
-      CylinderProfile(0, 40, 6), BallProfile(3, 20), BallProfile(3, 3),
-      PolyProfile({{0, 0}, {4, 4}, {9, 4}, {20, 1}, {20, 0}}),
-      PolyProfile({{80, 0}, {80, 20}, {110, 25}, {110, 31.5}, {120, 31.5}, {120, 22}, {180, 0}})};
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> z(-40, 260);
-  std::uniform_real_distribution<double> r(0, 60);
-  for (const machine::Profile& profile : profiles) {
-    const ProfileShape shape(profile);
-    for (const double length : {0.0, 0.7, 35.0}) {
-      const ProfileShape swept = shape.Swept(length);
-      EXPECT_EQ(swept.convex(), shape.convex());
-      EXPECT_NEAR(swept.z_max(), shape.z_max() + length, 1e-12);
-      for (int i = 0; i < 400; ++i) {
-        const Eigen::Vector2d p(z(random), r(random));
-        double nearest = 1e9;
-        constexpr int kSteps = 400;
-        for (int k = 0; k <= kSteps; ++k) {
-          nearest = std::min(nearest, shape.exact().Distance(p.x() - length * k / kSteps, p.y()));
-        }
-        double parts = 1e9;
-        for (const ConvexProfile& part : swept.parts()) {
-          parts = std::min(parts, part.At(p.x(), p.y()).distance);
-        }
-        EXPECT_LE(swept.hull().At(p.x(), p.y()).distance, parts + 1e-9);
-        if (nearest > 0.0) {
-          EXPECT_LE(parts, nearest + 1e-9);
-          EXPECT_GE(parts, nearest - length / kSteps - 1e-9);
-        } else {
-          EXPECT_LE(parts, 1e-9);
-          if (shape.convex()) {
-            EXPECT_LE(parts, nearest + 1e-9);
-          }
-        }
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace ncsim::collision

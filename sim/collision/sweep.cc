@@ -26,11 +26,16 @@ constexpr int kRefinements = 4000;        // queries a motion for the sake of a 
 constexpr int kDepthQueries = 1000;       // a motion
 constexpr int kNearQueries = 60;          // of them near the contact
 constexpr int kDepthEvaluations = 3000;   // a query
-constexpr double kAstray = 0.01;          // mm off the tool's axis that still is a way along it
+constexpr double kAstray = 0.01;          // mm off a straight way
 constexpr double kLeastWidth = 1e-9;      // of a span: below it the bound does not close
 
 PathPoint Middle(const Span& span) {
   return {0.5 * (span.s0 + span.s1), 0.5 * (span.lag0 + span.lag1)};
+}
+
+bool IsAlongAxis(const motion::Translation& translation) {
+  const Eigen::Vector3d axis = translation.X_BA.linear().col(2);
+  return translation.way.cross(axis).norm() <= kAstray;
 }
 
 // The half of a (s, lag) box that matters more: cut the side along which the pair moves further.
@@ -141,7 +146,7 @@ SweepResult PairSweep::Check(const Motion& motion, const Watch& watch, const Tra
 }
 
 // The clearance all the way, where what is known at the start leaves enough of it, or what the tool
-// sweeps along its axis, or a look into the middle of a dog-leg's box.
+// sweeps on a straight way, or a look into the middle of a dog-leg's box.
 std::optional<double> PairSweep::PassAtOnce(Sweep* sweep) {
   const Motion& motion = *sweep->motion;
   const TravelPlace& place = sweep->place;
@@ -166,10 +171,13 @@ std::optional<double> PairSweep::PassAtOnce(Sweep* sweep) {
     bound = motion::RelativeBound(motion, *path_, whole, 0.0, whole.lag0);
   }
   if (spare > bound) return known_.clearance - bound;
-  if (!translation.has_value()) return PassInBox(*sweep, need);
-  // How deep a feed goes is looked at.
+  if (!translation.has_value() || translation->astray > kAstray) return PassInBox(*sweep, need);
   if (!path_->revolved) return std::nullopt;
-  return ClearAlongAxis(*translation, motion::IsRapid(motion) ? need : std::max(need, 0.0));
+  if (motion::IsRapid(motion)) return ClearAllTheWay(*translation, need);
+  // How deep a feed goes is looked at. Where it may cut, it mostly touches, but for holes.
+  const bool cuts = sweep->watch.contact < 0.0;
+  if (cuts && !IsAlongAxis(*translation)) return std::nullopt;
+  return ClearAllTheWay(*translation, std::max(need, 0.0));
 }
 
 // A dog-leg's poses are nearer to the middle of its box than to any of each other: one look there
@@ -203,19 +211,15 @@ void PairSweep::Arrive(double clearance, const Sweep& sweep) {
   if (sweep.watch.track) least_.lower = std::min(least_.lower, clearance);
 }
 
-// The least clearance of a motion along the tool's own axis, in one look, if it is what is needed:
-// retracts, approaches and drilling are such.
-std::optional<double> PairSweep::ClearAlongAxis(const motion::Translation& translation,
+// The least clearance of a straight way, in one look, if it is what is needed.
+std::optional<double> PairSweep::ClearAllTheWay(const motion::Translation& translation,
                                                 double need) {
-  const Eigen::Vector3d axis = translation.X_BA.linear().col(2);
-  const double along = translation.way.dot(axis);
-  const double astray = translation.astray + (translation.way - along * axis).norm();
-  if (!(astray <= kAstray)) return std::nullopt;
+  if (!(translation.astray <= kAstray)) return std::nullopt;
   ++queries_;
   const std::optional<double> clearance =
-      engine_->ClearanceAlong(translation.X_BA, along, need + astray);
-  if (!clearance.has_value() || !(*clearance - astray > need)) return std::nullopt;
-  return *clearance - astray;
+      engine_->ClearanceAllTheWay(translation.X_BA, translation.way, need + translation.astray);
+  if (!clearance.has_value() || !(*clearance - translation.astray > need)) return std::nullopt;
+  return *clearance - translation.astray;
 }
 
 // Where nothing is known of the start: is one body inside the other, or in contact? From a start

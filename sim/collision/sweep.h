@@ -184,7 +184,7 @@ class PairSweep {
   bool Start(Sweep* sweep);
   void Observe(const Interval& clearance, const PathPoint& at, Sweep* sweep);
   void See(double clearance, const motion::Motion& motion, bool track);
-  std::optional<double> ClearAlongAxis(const motion::Translation& translation, double need);
+  std::optional<double> ClearAllTheWay(const motion::Translation& translation, double need);
   SweepResult Pass(double clearance, Sweep* sweep);
   void Arrive(double clearance, const Sweep& sweep);
   void Cover(const motion::Span& whole, Sweep* sweep);

@@ -165,12 +165,19 @@ TEST(SweepPropertyTest, NothingIsMissed) {
   EXPECT_GT(mesh_tally.clear, 8);
 }
 
-// Along Z, now and then beside it by what a post's rounding makes of it.
-motion::Motion AlongTheAxis(motion::Random* random, const motion::TestMachine& machine) {
+// Anywhere; or along Z, now and then beside it by what a post's rounding makes of it.
+motion::Motion StraightWay(motion::Random* random, const motion::TestMachine& machine,
+                           bool along_axis) {
   motion::JointVector q0(5);
   q0 << random->Uniform(-50, 50), random->Uniform(-50, 50), random->Uniform(-50, 50),
       random->Uniform(-1, 2), random->Uniform(-3, 3);
   motion::JointVector q1 = q0;
+  if (!along_axis) {
+    q1.head<3>() += random->Uniform(0, 150) * random->Direction();
+    motion::Motion motion = motion::MakeMotion(motion::AxisLinear{q0, q1});
+    motion.kind = motion::MotionKind::kRapid;
+    return motion;
+  }
   q1[2] += random->Uniform(-90, 90);
   if (random->Chance(0.5)) q1[random->Below(2)] += random->Uniform(-0.009, 0.009);
   if (random->Chance(0.4)) return motion::MakeMotion(motion::AxisLinear{q0, q1});
@@ -180,7 +187,7 @@ motion::Motion AlongTheAxis(motion::Random* random, const motion::TestMachine& m
 }
 
 // A look at the whole way settles those that are clear.
-TEST(SweepPropertyTest, AlongTheAxisNothingIsMissed) {
+TEST(SweepPropertyTest, OnStraightWaysNothingIsMissed) {
   motion::Random random(9);
   const motion::TestMachine machine = kinematics::TrunnionBC({10, 0, -40}, {10, 5, 0});
   const auto five_axis =
@@ -195,9 +202,9 @@ TEST(SweepPropertyTest, AlongTheAxisNothingIsMissed) {
       std::make_shared<const ToolBody>(tool, machine::BodyKind::kHolder, machine.spindle_link)};
   Tally tally;
   int at_once = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 800; ++i) {
     const auto& a = bodies[i % 2];
-    const motion::Motion motion = AlongTheAxis(&random, machine);
+    const motion::Motion motion = StraightWay(&random, machine, i % 4 < 2);
     const motion::JointVector q = motion.At(random.Uniform(0.0, 1.0));
     const Eigen::Isometry3d X_BS = machine.tree.Pose(machine.table_link, q).inverse() *
                                    machine.tree.Pose(machine.spindle_link, q);
@@ -215,9 +222,9 @@ TEST(SweepPropertyTest, AlongTheAxisNothingIsMissed) {
     watch.contact = level;
     if (!alone.Check(motion, watch).contact && alone.queries() <= 2) ++at_once;
   }
-  EXPECT_GT(tally.contacts, 80);
-  EXPECT_GT(tally.clear, 120);
-  EXPECT_GE(at_once, tally.clear - 5);
+  EXPECT_GT(tally.contacts, 160);
+  EXPECT_GT(tally.clear, 240);
+  EXPECT_GE(at_once, tally.clear - 10);
 }
 
 // Runs of motions: what Cross passes over is as clear as it says, at every sample.

@@ -39,10 +39,11 @@ struct WideSolid {
   /// Convex and around the solid; counts where a bound by the parts is negative, for the union is
   /// deeper than its parts. Null for a convex solid.
   const WidePart* hull;
-  float origin[3];  ///< On the axis; from the mesh's origin, mm.
-  float axis[3];    ///< Unit.
-  float reach;      ///< Greatest coordinate of the profile, mm.
-  float rounding;   ///< Error of `origin` and of what is measured from it, mm.
+  float origin[3];    ///< On the axis; from the mesh's origin, mm.
+  float axis[3];      ///< Unit.
+  float half_way[3];  ///< It goes from origin - half_way to origin + half_way, mm; 0: it stands.
+  float reach;        ///< Greatest coordinate of the profile, mm.
+  float rounding;     ///< Error of `origin` and of what is measured from it, mm.
 };
 
 /// Which of eight bounds are below what is enough, and what the others leave to be said.
@@ -51,8 +52,8 @@ struct WideNear {
   float passed;  ///< The least of the others; 1e30 for none.
 };
 
-/// No point of box or triangle i has a smaller signed distance than lower[i]; rounding is taken
-/// off. The same bytes on every processor.
+/// No point of box or triangle i has a smaller signed distance than lower[i] anywhere on the way of
+/// the solid; rounding is taken off. The same bytes on every processor.
 WideNear BoundBoxes(const WideBoxes& boxes, const WideSolid& solid, float enough, float* lower);
 WideNear BoundTriangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
                         float* lower);

@@ -30,26 +30,14 @@ class WideKernel {
 
   static WideNear Boxes(const WideBoxes& boxes, const WideSolid& solid, float enough,
                         float* lower) {
-    Sorted sorted(enough);
-    for (int i = 0; i < kWide; i += N) {
-      const Box box(FromOrigin(LoadVector(boxes.centre, i), solid), LoadVector(boxes.half[0], i),
-                    LoadVector(boxes.half[1], i), LoadVector(boxes.half[2], i), solid);
-      sorted.Add(Bound(box, solid, enough), i, lower);
-    }
-    return sorted.Near();
+    return Moves(solid) ? BoundAll<Box<4>>(boxes, solid, enough, lower)
+                        : BoundAll<Box<3>>(boxes, solid, enough, lower);
   }
 
   static WideNear Triangles(const WideTriangles& triangles, const WideSolid& solid, float enough,
                             float* lower) {
-    Sorted sorted(enough);
-    for (int i = 0; i < kWide; i += N) {
-      const Vector a = LoadVector(triangles.corner[0], i);
-      const Vector b = LoadVector(triangles.corner[1], i);
-      const Vector c = LoadVector(triangles.corner[2], i);
-      const Triangle triangle(FromOrigin(a, solid), Minus(b, a), Minus(c, a), solid);
-      sorted.Add(Bound(triangle, solid, enough), i, lower);
-    }
-    return sorted.Near();
+    return Moves(solid) ? BoundAll<Triangle<true>>(triangles, solid, enough, lower)
+                        : BoundAll<Triangle<false>>(triangles, solid, enough, lower);
   }
 
  private:
@@ -59,6 +47,7 @@ class WideKernel {
   // A point in the solid's half plane, and the direction from the axis to it (0 on the axis); given
   // from the solid's origin.
   struct Place {
+    Place() {}
     Place(const Vector& v, const Float& spread, const WideSolid& solid) {
       z = Along(v, solid);
       Vector a = Across(v, z, solid);
@@ -75,29 +64,52 @@ class WideKernel {
     Float z, r, error;
     Vector radial;
   };
+  static bool Moves(const WideSolid& solid) {
+    return solid.half_way[0] != 0.0F || solid.half_way[1] != 0.0F || solid.half_way[2] != 0.0F;
+  }
+  // Where the solid goes by t half ways, a point p is to it as p - t half_way is to where it
+  // stands: the way is one more half axis of each box, one more dimension of each triangle.
+  static Vector HalfWay(const WideSolid& solid, const Float& zero) {
+    return {zero + solid.half_way[0], zero + solid.half_way[1], zero + solid.half_way[2]};
+  }
   // From the solid's origin; with what all of its parts need: how far it spreads, and its middle.
+  template <int kAxes>
   struct Box {
-    Box(const Vector& c, const Vector& a, const Vector& b, const Vector& d, const WideSolid& solid)
-        : centre(c),
-          half{a, b, d},
-          spread(SumOfSizes(a) + SumOfSizes(b) + SumOfSizes(d)),
-          middle(c, spread, solid) {}
-    Vector centre, half[3];
+    Box(const WideBoxes& boxes, int i, const WideSolid& solid)
+        : centre(FromOrigin(LoadVector(boxes.centre, i), solid)) {
+      for (int k = 0; k < 3; ++k) half[k] = LoadVector(boxes.half[k], i);
+      if constexpr (kAxes == 4) half[3] = HalfWay(solid, centre.x - centre.x);
+      spread = SumOfSizes(half[0]);
+      for (int k = 1; k < kAxes; ++k) spread = spread + SumOfSizes(half[k]);
+      middle = Place(centre, spread, solid);
+    }
+    Vector centre, half[kAxes];
     Float spread;
     Place middle;
   };
+  template <bool kMoves>
   struct Triangle {
-    Triangle(const Vector& a, const Vector& b, const Vector& c, const WideSolid& solid)
-        : corner(a),
-          side{b, c},
-          spread(SumOfSizes(b) + SumOfSizes(c)),
-          middle(At(kThird, kThird), spread, solid) {}
-    template <typename Number>
-    Vector At(const Number& a, const Number& b) const {
-      return {corner.x + a * side[0].x + b * side[1].x, corner.y + a * side[0].y + b * side[1].y,
-              corner.z + a * side[0].z + b * side[1].z};
+    Triangle(const WideTriangles& triangles, int i, const WideSolid& solid) {
+      const Vector a = LoadVector(triangles.corner[0], i);
+      corner = FromOrigin(a, solid);
+      side[0] = Minus(LoadVector(triangles.corner[1], i), a);
+      side[1] = Minus(LoadVector(triangles.corner[2], i), a);
+      spread = SumOfSizes(side[0]) + SumOfSizes(side[1]);
+      const Float zero = spread - spread;
+      if constexpr (kMoves) {
+        way = HalfWay(solid, zero);
+        spread = spread + SumOfSizes(way);
+      }
+      middle = Place(At(zero + kThird, zero + kThird, zero), spread, solid);
     }
-    Vector corner, side[2];
+    Vector At(const Float& a, const Float& b, const Float& t) const {
+      Vector p = {corner.x + a * side[0].x + b * side[1].x,
+                  corner.y + a * side[0].y + b * side[1].y,
+                  corner.z + a * side[0].z + b * side[1].z};
+      if constexpr (kMoves) p = {p.x + t * way.x, p.y + t * way.y, p.z + t * way.z};
+      return p;
+    }
+    Vector corner, side[2], way;
     Float spread;
     Place middle;
   };
@@ -107,7 +119,7 @@ class WideKernel {
     explicit Sorted(float enough) : enough_(enough) {}
     void Add(const Float& bound, int i, float* lower) {
       __builtin_memcpy(lower + i, &bound, sizeof(bound));
-      const Mask near = bound < enough_;
+      const Mask near = ~(bound >= enough_);  // what is no number is not far
       near_.lanes |= Bits(near) << i;
       const Float none = bound - bound + kFar;
       const Float passed = near ? none : bound;
@@ -210,19 +222,24 @@ class WideKernel {
 
   // Two planes: about the centre, and about the point of the box that is nearest to the foot of the
   // centre on the solid.
-  static Float BoundPart(const Box& box, const WideSolid& solid, const WidePart& part,
+  template <int kAxes>
+  static Float BoundPart(const Box<kAxes>& box, const WideSolid& solid, const WidePart& part,
                          float enough) {
     const Float zero = box.spread - box.spread;
     const Plane plane = Furthest(box.middle, part);
     const Vector g = Slope(plane, box.middle, solid);
-    const Float along[3] = {Dot(g, box.half[0]), Dot(g, box.half[1]), Dot(g, box.half[2])};
-    const Float lower =
-        plane.distance - box.middle.error - (Size(along[0]) + Size(along[1]) + Size(along[2]));
+    Float along[kAxes];
+    Float sizes = zero;
+    for (int k = 0; k < kAxes; ++k) {
+      along[k] = Dot(g, box.half[k]);
+      sizes = sizes + Size(along[k]);
+    }
+    const Float lower = plane.distance - box.middle.error - sizes;
     const Mask open = lower < enough;
     if (!Any(open)) return lower;
-    Float at[3];
+    Float at[kAxes];
     Vector p = box.centre;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < kAxes; ++k) {
       const Vector& half = box.half[k];
       const Float foot = -plane.distance * along[k] / Most(Dot(half, half), zero + 1e-30F);
       at[k] = Least(Most(foot, zero - 1.0F), zero + 1.0F);
@@ -232,59 +249,89 @@ class WideKernel {
     const Plane other = Furthest(near, part);
     const Vector h = Slope(other, near, solid);
     Float least = other.distance - near.error;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < kAxes; ++k) {
       const Float slope = Dot(h, box.half[k]);
       least = least - at[k] * slope - Size(slope);
     }
     return open ? Most(lower, least) : lower;
   }
 
-  // Newton's method in barycentric coordinates, as TriangleDescent does it.
-  static Float BoundPart(const Triangle& t, const WideSolid& solid, const WidePart& part,
-                         float enough) {
-    constexpr int kSteps = 4;
-    const Float zero = t.spread - t.spread;
+  // Newton's method in barycentric coordinates, as TriangleDescent does it; and by turns along the
+  // way.
+  template <bool kMoves>
+  static Float BoundPart(const Triangle<kMoves>& triangle, const WideSolid& solid,
+                         const WidePart& part, float enough) {
+    constexpr int kSteps = kMoves ? 9 : 4;
+    const Float zero = triangle.spread - triangle.spread;
     Float a = zero + kThird;
     Float b = a;
-    Place place = t.middle;
+    Float t = zero;
+    Place place = triangle.middle;
     Float lower = zero - 1e30F;
     Float upper = zero + 1e30F;
     Mask open = zero < 1.0F;  // a lane takes its steps whatever its neighbours do
     for (int step = 0;; ++step) {
       const Plane plane = Furthest(place, part);
       const Vector g = Slope(plane, place, solid);
-      const Float ga = Dot(g, t.side[0]);
-      const Float gb = Dot(g, t.side[1]);
-      const Float bound =
-          plane.distance - place.error - a * ga - b * gb + Least(zero, Least(ga, gb));
+      const Float ga = Dot(g, triangle.side[0]);
+      const Float gb = Dot(g, triangle.side[1]);
+      Float bound = plane.distance - place.error - a * ga - b * gb + Least(zero, Least(ga, gb));
+      Float gt = zero;
+      if constexpr (kMoves) {
+        gt = Dot(g, triangle.way);
+        bound = bound - t * gt - Size(gt);
+      }
       lower = open ? Most(lower, bound) : lower;
       upper = Least(upper, plane.distance);
       // What is left may be below `enough` in truth.
       open = open & (lower < enough) & (upper - lower > 2.0F * place.error + kNear);
       if (step == kSteps || !Any(open)) return lower;
-      const Vector tangent = {plane.normal_z * place.radial.x - plane.normal_r * solid.axis[0],
-                              plane.normal_z * place.radial.y - plane.normal_r * solid.axis[1],
-                              plane.normal_z * place.radial.z - plane.normal_r * solid.axis[2]};
-      const Vector around = {solid.axis[1] * place.radial.z - solid.axis[2] * place.radial.y,
-                             solid.axis[2] * place.radial.x - solid.axis[0] * place.radial.z,
-                             solid.axis[0] * place.radial.y - solid.axis[1] * place.radial.x};
-      const Float turn = plane.normal_r / Most(place.r, zero + 1e-6F);
-      const Float most = plane.curvature > 0.0F ? plane.curvature : turn;
-      const Float ta = Dot(tangent, t.side[0]);
-      const Float tb = Dot(tangent, t.side[1]);
-      const Float ua = Dot(around, t.side[0]);
-      const Float ub = Dot(around, t.side[1]);
-      const Quadratic q = {ga, gb, most * ga * ga + plane.curvature * ta * ta + turn * ua * ua,
-                           most * ga * gb + plane.curvature * ta * tb + turn * ua * ub,
-                           most * gb * gb + plane.curvature * tb * tb + turn * ub * ub};
-      Step(q, &a, &b);
-      place = Place(t.At(a, b), t.spread, solid);
+      const Bend bend(plane, place, solid);
+      if (kMoves && step % 2 == 0) {
+        const Float along = bend.Along(triangle.way, gt);
+        t = Least(Most(t - gt / Most(along, zero + 1e-30F), zero - 1.0F), zero + 1.0F);
+      } else {
+        Step(bend.Over(triangle.side, ga, gb), &a, &b);
+      }
+      place = Place(triangle.At(a, b, t), triangle.spread, solid);
     }
   }
 
   // Slope and bend of a function of (a, b) about a place.
   struct Quadratic {
     Float a, b, aa, ab, bb;
+  };
+
+  // How the distance bends about a place: along its slope, along the profile and around the axis.
+  struct Bend {
+    Bend(const Plane& plane, const Place& place, const WideSolid& solid)
+        : tangent{plane.normal_z * place.radial.x - plane.normal_r * solid.axis[0],
+                  plane.normal_z * place.radial.y - plane.normal_r * solid.axis[1],
+                  plane.normal_z * place.radial.z - plane.normal_r * solid.axis[2]},
+          around{solid.axis[1] * place.radial.z - solid.axis[2] * place.radial.y,
+                 solid.axis[2] * place.radial.x - solid.axis[0] * place.radial.z,
+                 solid.axis[0] * place.radial.y - solid.axis[1] * place.radial.x},
+          curvature(plane.curvature) {
+      const Float zero = place.r - place.r;
+      turn = plane.normal_r / Most(place.r, zero + 1e-6F);
+      most = plane.curvature > 0.0F ? plane.curvature : turn;
+    }
+    Float Along(const Vector& way, const Float& slope) const {
+      const Float t = Dot(tangent, way);
+      const Float u = Dot(around, way);
+      return most * slope * slope + curvature * t * t + turn * u * u;
+    }
+    Quadratic Over(const Vector (&side)[2], const Float& ga, const Float& gb) const {
+      const Float ta = Dot(tangent, side[0]);
+      const Float tb = Dot(tangent, side[1]);
+      const Float ua = Dot(around, side[0]);
+      const Float ub = Dot(around, side[1]);
+      return {ga, gb, most * ga * ga + curvature * ta * ta + turn * ua * ua,
+              most * ga * gb + curvature * ta * tb + turn * ua * ub,
+              most * gb * gb + curvature * tb * tb + turn * ub * ub};
+    }
+    Vector tangent, around;
+    Float curvature, turn, most;
   };
 
   static void Step(const Quadratic& q, Float* a, Float* b) {
@@ -319,6 +366,15 @@ class WideKernel {
     }
     *a = inside ? inner_a : best_a;
     *b = inside ? inner_b : best_b;
+  }
+
+  template <typename Shape, typename Eight>
+  static WideNear BoundAll(const Eight& eight, const WideSolid& solid, float enough, float* lower) {
+    Sorted sorted(enough);
+    for (int i = 0; i < kWide; i += N) {
+      sorted.Add(Bound(Shape(eight, i, solid), solid, enough), i, lower);
+    }
+    return sorted.Near();
   }
 
   template <typename Shape>

@@ -50,7 +50,10 @@ void VisitPoses(const Visit& visit) {
         X.translation() = (0.1 * X.translation()).array().round();
       }
       const Vector3d axis = X.linear().col(2);
-      visit(tree, shape, X.translation(), axis, wide.Place(X.translation(), axis, tree));
+      // Every third solid moves.
+      const Vector3d half_way =
+          i % 3 == 0 ? Vector3d(30 * X.linear().col(i % 2)) : Vector3d::Zero();
+      visit(tree, shape, X.translation(), axis, wide.Place(X.translation(), axis, tree, half_way));
     }
   }
 }
@@ -95,9 +98,14 @@ TEST(WideBoundsTest, NoPointIsNearer) {
   double closest = 1e9;
   VisitPoses([&](const TriangleTree& tree, const ProfileShape& shape, const Vector3d& tip,
                  const Vector3d& axis, const WideSolid& solid) {
+    const Vector3d half_way = Eigen::Map<const Eigen::Vector3f>(solid.half_way).cast<double>();
+    // Of the solid anywhere on its way; at its ends as often as between.
     const auto distance = [&](const Vector3d& p) {
-      const double z = (p - tip).dot(axis);
-      return shape.exact().Distance(z, (p - tip - z * axis).norm());
+      const double t =
+          unit(random) < 0.5 ? 2.0 * unit(random) - 1.0 : (unit(random) < 0.5 ? -1 : 1);
+      const Vector3d v = p - tip - t * half_way;
+      const double z = v.dot(axis);
+      return shape.exact().Distance(z, (v - z * axis).norm());
     };
     std::array<float, kWide> lower{};
     const WideBoxes& boxes = tree.node(0).boxes;

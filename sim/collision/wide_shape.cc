@@ -40,14 +40,16 @@ void WideShape::Add(const ConvexProfile& profile) {
 }
 
 const WideSolid& WideShape::Place(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis,
-                                  const TriangleTree& tree) {
+                                  const TriangleTree& tree, const Eigen::Vector3d& half_way) {
   const Eigen::Vector3d origin = tip + middle_ * axis - tree.origin();
   for (int k = 0; k < 3; ++k) {
     solid_.origin[k] = Narrowed(origin[k]);
     solid_.axis[k] = Narrowed(axis[k]);
+    solid_.half_way[k] = Narrowed(half_way[k]);
   }
-  // Twice the rounding (6e-8) of each coordinate of the origin and of a leaf's corner.
-  solid_.rounding = Narrowed(2.5e-7 * (origin.cwiseAbs().maxCoeff() + tree.reach()));
+  // Twice the rounding (6e-8) of each coordinate of the origin, of a leaf's corner and of the way.
+  solid_.rounding = Narrowed(
+      2.5e-7 * (origin.cwiseAbs().maxCoeff() + tree.reach() + half_way.cwiseAbs().maxCoeff()));
   return solid_;
 }
 

@@ -17,10 +17,11 @@ class WideShape {
   WideShape(const WideShape&) = delete;
   WideShape& operator=(const WideShape&) = delete;
 
-  /// Puts the solid at p(z) = tip + z axis in the frame of a tree's mesh. Valid until the next
-  /// call.
+  /// Puts the solid at p(z) = tip + z axis in the frame of a tree's mesh, from where it goes by
+  /// `half_way` and back by as much. Valid until the next call.
   const WideSolid& Place(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis,
-                         const TriangleTree& tree);
+                         const TriangleTree& tree,
+                         const Eigen::Vector3d& half_way = Eigen::Vector3d::Zero());
 
  private:
   void Add(const ConvexProfile& profile);
